@@ -1,0 +1,31 @@
+// The piecewise linear complex: what the core takes (docs/plc.md).
+//
+// Precondition of every later stage: the triangles are closed and consistently oriented round each solid,
+// every segment is an edge of some triangle, points are distinct.  check_plc() proves it.
+#pragma once
+
+#include <vector>
+
+#include "base/failure.h"
+#include "base/vec3.h"
+
+namespace dm {
+
+struct Plc {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<Index> triangle_face;  // CAD face of each triangle
+  std::vector<Segment> segments;     // triangle edges that lie on a CAD edge which is a feature (no seams)
+  std::vector<Index> segment_edge;   // CAD edge of each segment
+  std::vector<Index> corners;        // points that are CAD vertices
+  std::vector<Index> corner_vertex;  // CAD vertex of each
+  // Per CAD face the solids {behind, in front of} its triangles' right-hand normal; 0 = outside, else 1-based.
+  std::vector<std::array<Index, 2>> face_solids;
+  Index edge_count = 0, vertex_count = 0, solid_count = 0;
+};
+
+// Throws Failure("plc", ...) naming face and place at the first defect: open edge, inconsistent orientation,
+// index out of range, repeated point, NaN, zero-area solid.
+void check_plc(const Plc& plc);
+
+}  // namespace dm
