@@ -11,6 +11,7 @@
 #include "order/second_order.h"
 #include "plc/geometry.h"
 #include "plc/plc.h"
+#include "refinement/certificate.h"
 #include "sizing/size_field.h"
 
 namespace dm {
@@ -23,21 +24,12 @@ struct MesherOptions {
   std::int64_t max_elements = 0;  // refuse to start when the prediction exceeds it; 0 = by free memory
 };
 
-// An element under the target angle and why: "input_angle", "size_floor" or "fallback".
-struct BelowTarget {
-  Index tet;
-  double angle;  // degrees
-  const char* reason;
-  Entity entity;  // CAD element at fault, when there is one
-  Vec3 place;
-};
-
 struct MeshResult {
   VolumeMesh mesh;
   SecondOrder second_order;  // empty for order 1
   std::vector<BelowTarget> below_target;
-  std::vector<std::pair<std::string, double>> seconds;         // per stage, in order
-  std::vector<std::pair<std::string, double>> statistics;      // counters worth reporting
+  std::vector<std::pair<std::string, double>> seconds;     // per stage, in order
+  std::vector<std::pair<std::string, double>> statistics;  // counters worth reporting
   std::vector<std::string> warnings;
 };
 

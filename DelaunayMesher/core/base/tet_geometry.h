@@ -29,7 +29,8 @@ inline constexpr int kFacePairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3},
 // Cosines of the six dihedral angles, in the order of kFacePairs; the angle between faces i and j lies at the
 // edge joining the other two corners.
 inline std::array<double, 6> dihedral_cosines(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const std::array<Vec3, 4> n = {cross(d - b, c - b), cross(c - a, d - a), cross(d - a, b - a), cross(b - a, c - a)};
+  const std::array<Vec3, 4> n = {cross(d - b, c - b), cross(c - a, d - a), cross(d - a, b - a),
+                                 cross(b - a, c - a)};
   std::array<double, 4> l{};
   for (int i = 0; i < 4; ++i) l[i] = norm2(n[i]);
   std::array<double, 6> cosines{};

@@ -16,7 +16,7 @@ struct VolumeMesh {
   std::vector<Entity> point_entity;  // lowest-dimensional CAD element each point lies on (3 = inside a solid)
   std::vector<Tet> tets;
   std::vector<std::array<Index, 4>> neighbours;
-  std::vector<Index> tet_solid;  // 1-based
+  std::vector<Index> tet_solid;     // 1-based
   std::vector<Triangle> triangles;  // boundary and interfaces, oriented as the PLC's faces
   std::vector<Index> triangle_face;
   std::vector<Segment> segments;

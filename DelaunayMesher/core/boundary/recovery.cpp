@@ -1,0 +1,461 @@
+#include "boundary/recovery.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/random.h"
+
+namespace dm {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kMaxRounds = 60;
+// Splitting floors, relative to the wanted edge length: below them a constraint counts as unrecoverable.
+constexpr double kSegmentFloor = 0.01, kTriangleFloor = 0.01;
+
+class Recovery {
+ public:
+  Recovery(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size, Context& context,
+           RecoveryReport& report)
+      : tets_(mesh.tets),
+        complex_(mesh.boundary),
+        geometry_(geometry),
+        size_(size),
+        context_(context),
+        report_(report) {}
+
+  void run() {
+    label_present();
+    report_.missing_at_start = static_cast<Index>(missing_.size());
+    for (int round = 0; round < kMaxRounds && !missing_.empty(); ++round) {
+      context_.poll(1 - 1.0 / (round + 2));
+      std::vector<Index> work;
+      work.swap(missing_);
+      std::sort(work.begin(), work.end());
+      work.erase(std::unique(work.begin(), work.end()), work.end());
+      stuck_.clear();
+      for (const Index t : work)
+        if (is_missing(t) && !flip(t)) later_.push_back(t);
+      for (const Index t : later_)
+        if (is_missing(t) && !split(t)) stuck_.push_back(t);
+      later_.clear();
+      if (missing_.empty() && !stuck_.empty()) break;
+      missing_.insert(missing_.end(), stuck_.begin(), stuck_.end());
+    }
+    missing_.insert(missing_.end(), stuck_.begin(), stuck_.end());
+    for (const Index t : missing_)
+      if (is_missing(t)) fail(t);
+  }
+
+ private:
+  const std::vector<Vec3>& points() const { return tets_.points(); }
+  bool is_missing(Index t) const { return complex_.alive(t) && !present_[t]; }
+  double edge_size(const Vec3& p) const { return 0.8 * size_.at(p); }
+
+  // One pass over all faces instead of one search per triangle.
+  void label_present() {
+    present_.assign(complex_.slot_count(), 0);
+    for (Index tet = 0; tet < tets_.slot_count(); ++tet) {
+      if (tets_.is_free(tet) || tets_.is_ghost(tet)) continue;
+      const Tet& v = tets_.corners(tet);
+      for (int i = 0; i < 4; ++i) {
+        const Index t = complex_.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+        if (t < 0) continue;
+        set_marked_both(tets_, 4 * tet + i, true);
+        present_[t] = 1;
+      }
+    }
+    for (Index t = 0; t < complex_.slot_count(); ++t)
+      if (!present_[t]) missing_.push_back(t);
+  }
+
+  void label(Index t) {
+    present_.resize(complex_.slot_count(), 0);
+    const Triangle& q = complex_.corners(t);
+    const Face f = find_face(tets_, q[0], q[1], q[2]);
+    present_[t] = f >= 0;
+    if (f >= 0)
+      set_marked_both(tets_, f, true);
+    else
+      missing_.push_back(t);
+  }
+
+  void unlabel(Index t) {
+    if (!present_[t]) return;
+    const Triangle& q = complex_.corners(t);
+    const Face f = find_face(tets_, q[0], q[1], q[2]);
+    if (f >= 0) set_marked_both(tets_, f, false);
+    present_[t] = 0;
+  }
+
+  bool flip(Index t) {
+    const Triangle q = complex_.corners(t);
+    for (int i = 0; i < 3; ++i) {
+      EdgeFlip f;
+      if (!can_flip(complex_, points(), q[i], q[(i + 1) % 3], f)) continue;
+      if (find_face(tets_, f.c, f.a, f.d) < 0 || find_face(tets_, f.d, f.b, f.c) < 0) continue;
+      apply(f);
+      ++report_.flips;
+      return true;
+    }
+    return false;
+  }
+
+  void apply(const EdgeFlip& f) {
+    unlabel(f.first);
+    unlabel(f.second);
+    for (const Index t : do_flip(complex_, f)) label(t);
+  }
+
+  bool split(Index t) {
+    const Triangle q = complex_.corners(t);
+    Index sa = -1, sb = -1;
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Index a = q[i], b = q[(i + 1) % 3];
+      const double l = distance(points()[a], points()[b]);
+      if (l <= longest || !complex_.is_segment(a, b) || has_edge(a, b)) continue;
+      sa = a, sb = b, longest = l;
+    }
+    return sa >= 0 ? split_segment(sa, sb) : split_triangle(t);
+  }
+
+  bool has_edge(Index a, Index b) const {
+    BoundaryComplex::Fan fan;
+    const int n = complex_.triangles_at(a, b, fan);
+    for (int i = 0; i < n; ++i)
+      if (present_[fan[i]]) return true;
+    return tetrahedron_at_edge(a, b);
+  }
+
+  bool tetrahedron_at_edge(Index a, Index b) const;
+
+  bool split_segment(Index a, Index b) {
+    const Vec3 pa = points()[a], pb = points()[b];
+    const double l = distance(pa, pb);
+    if (l < kSegmentFloor * edge_size(0.5 * (pa + pb))) return false;
+    Random random(context_.seed, a, b, 1);
+    const double w = split_ratio(a, b, l, random);
+    const Vec3 p = geometry_.project_to_edge(complex_.segment(a, b), (1 - w) * pa + w * pb);
+    const Index v = insert(p, a);
+    if (v < 0) return false;
+    BoundaryComplex::Fan fan;
+    const int n = complex_.triangles_at(a, b, fan);
+    complex_.split_segment(a, b, v);
+    split_fan(a, b, v, fan, n);
+    ++report_.segment_splits;
+    return true;
+  }
+
+  // Segments at a corner split at a power of two from it, so that the pieces round an acute corner match
+  // (concentric shells, Shewchuk 1998); elsewhere near the middle, at random: exact middles make
+  // cosphericals.
+  double split_ratio(Index a, Index b, double l, Random& random) const {
+    const bool corner_a = complex_.entity(a).dimension == 0, corner_b = complex_.entity(b).dimension == 0;
+    if (corner_a == corner_b) return 0.5 + 0.1 * random.symmetric();
+    const double unit = std::exp2(std::round(std::log2(0.5 * l)));
+    const double w = std::clamp(unit / l, 0.25, 0.75);
+    return corner_a ? w : 1 - w;
+  }
+
+  bool split_triangle(Index t) {
+    const Triangle q = complex_.corners(t);
+    const Vec3 a = points()[q[0]], b = points()[q[1]], c = points()[q[2]];
+    const Sphere circle = circumcircle(a, b, c);
+    const double r = std::sqrt(circle.radius2);
+    const Vec3 middle = (1.0 / 3) * (a + b + c);
+    if (r < kTriangleFloor * edge_size(middle)) return false;
+    int apex = 0;
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double l = distance(points()[q[(i + 1) % 3]], points()[q[(i + 2) % 3]]);
+      if (l > longest) longest = l, apex = i;
+    }
+    const Index u = q[(apex + 1) % 3], v = q[(apex + 2) % 3];
+    const bool obtuse = longest > 1.99 * r * std::sin(1.5);
+    if (obtuse && complex_.is_segment(u, v)) return split_segment(u, v);
+    Random random(context_.seed, q[0], q[1], q[2], 2);
+    const Index face = complex_.face(t);
+    if (obtuse) return split_edge(u, v, face, random);
+    Vec3 p = circle.centre + (0.2 * r) * random.in_ball();
+    if (!well_inside(p, q, 0.15 * r)) p = 0.7 * middle + 0.3 * circle.centre;
+    p = geometry_.project_to_face(face, p);
+    const Index w = insert(p, q[0]);
+    if (w < 0) return false;
+    complex_.set_entity(w, {2, face});
+    unlabel(t);
+    complex_.remove(t);
+    for (int i = 0; i < 3; ++i) complex_.add(q[i], q[(i + 1) % 3], w, face);
+    finish_split(w);
+    ++report_.triangle_splits;
+    return true;
+  }
+
+  bool split_edge(Index a, Index b, Index face, Random& random) {
+    const double w = 0.5 + 0.1 * random.symmetric();
+    const Vec3 p = geometry_.project_to_face(face, (1 - w) * points()[a] + w * points()[b]);
+    BoundaryComplex::Fan fan;
+    const int n = complex_.triangles_at(a, b, fan);
+    const Index v = insert(p, a);
+    if (v < 0) return false;
+    complex_.set_entity(v, {2, face});
+    split_fan(a, b, v, fan, n);
+    ++report_.triangle_splits;
+    return true;
+  }
+
+  bool well_inside(const Vec3& p, const Triangle& q, double margin) const {
+    const Vec3 normal = normalized(area_vector(points()[q[0]], points()[q[1]], points()[q[2]]));
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 e = points()[q[(i + 1) % 3]] - points()[q[i]];
+      if (dot(cross(normal, normalized(e)), p - points()[q[i]]) < margin) return false;
+    }
+    return true;
+  }
+
+  // Every triangle at edge (a, b) becomes two.
+  void split_fan(Index a, Index b, Index v, const BoundaryComplex::Fan& fan, int n) {
+    for (int i = 0; i < n; ++i) {
+      const Index t = fan[i];
+      const Triangle q = complex_.corners(t);
+      const Index face = complex_.face(t);
+      unlabel(t);
+      complex_.remove(t);
+      for (const Index replaced : {a, b}) {
+        Triangle piece = q;
+        std::replace(piece.begin(), piece.end(), replaced, v);
+        complex_.add(piece[0], piece[1], piece[2], face);
+      }
+    }
+    finish_split(v);
+  }
+
+  // Labels the new triangles and restores the surface Delaunay property round v.
+  void finish_split(Index v) {
+    std::vector<Segment> stack;
+    const std::vector<Index> star(complex_.triangles_at(v).begin(), complex_.triangles_at(v).end());
+    for (const Index t : star) {
+      label(t);
+      const Triangle& q = complex_.corners(t);
+      for (int i = 0; i < 3; ++i)
+        if (q[i] != v && q[(i + 1) % 3] != v) stack.push_back({q[i], q[(i + 1) % 3]});
+    }
+    for (int guard = 0; !stack.empty() && guard < 500; ++guard) {
+      const auto [a, b] = stack.back();
+      stack.pop_back();
+      EdgeFlip f;
+      if (!can_flip(complex_, points(), a, b, f) || !flip_improves(points(), f)) continue;
+      apply(f);
+      for (const Index x : {f.c, f.d})
+        for (const Index y : {f.a, f.b}) stack.push_back({x, y});
+    }
+  }
+
+  // New Delaunay vertex; labelled triangles whose face vanished become missing.
+  Index insert(const Vec3& p, Index near) {
+    const Index start = tets_.locate(p, tets_.vertex_tet(near));
+    if (start < 0) return -1;
+    tets_.find_cavity(p, start, false, cavity_);
+    if (cavity_.border.empty()) return -1;
+    for (const Index tet : cavity_.tets) {
+      if (!tets_.marks(tet) || tets_.is_ghost(tet)) continue;
+      const Tet& v = tets_.corners(tet);
+      for (int i = 0; i < 4; ++i) {
+        if (!tets_.marked(tet, i)) continue;
+        const Index t = complex_.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+        if (t >= 0) touched_.push_back(t);
+      }
+    }
+    const Index v = tets_.insert(p, cavity_);
+    for (const Index t : touched_) {
+      const Triangle& q = complex_.corners(t);
+      if (find_face(tets_, q[0], q[1], q[2]) >= 0) continue;
+      present_[t] = 0;
+      missing_.push_back(t);
+    }
+    touched_.clear();
+    return v;
+  }
+
+  [[noreturn]] void fail(Index t) const {
+    const Triangle& q = complex_.corners(t);
+    const Vec3 place = (1.0 / 3) * (points()[q[0]] + points()[q[1]] + points()[q[2]]);
+    throw Failure(
+        "boundary", "unrecovered",
+        "the boundary cannot be represented here: the triangulated faces touch or cross each other; "
+        "try a smaller size",
+        place, {2, complex_.face(t)});
+  }
+
+  Triangulation& tets_;
+  BoundaryComplex& complex_;
+  const Geometry& geometry_;
+  const SizeField& size_;
+  Context& context_;
+  RecoveryReport& report_;
+  std::vector<char> present_;  // per labelled triangle: is it a face of the triangulation?
+  std::vector<Index> missing_, later_, stuck_, touched_;
+  Cavity cavity_;
+};
+
+// Breadth-first search of the star of vertex a for a tetrahedron with the given corners.
+template <class Accept>
+Face search_star(const Triangulation& tets, Index a, Accept accept) {
+  const Index start = tets.vertex_tet(a);
+  if (start < 0) return -1;
+  std::vector<Index> star{start};
+  const auto seen = [&](Index t) { return std::find(star.begin(), star.end(), t) != star.end(); };
+  std::vector<char> large;  // past a few dozen tetrahedra a bitmap beats the linear search
+  const auto visit = [&](Index t) {
+    if (star.size() == 64 && large.empty()) {
+      large.assign(tets.slot_count(), 0);
+      for (const Index s : star) large[s] = 1;
+    }
+    if (large.empty() ? seen(t) : large[t] != 0) return;
+    if (!large.empty()) large[t] = 1;
+    star.push_back(t);
+  };
+  for (std::size_t k = 0; k < star.size(); ++k) {
+    const Index tet = star[k];
+    const Face found = accept(tet);
+    if (found >= 0) return found;
+    const Tet& v = tets.corners(tet);
+    for (int i = 0; i < 4; ++i)
+      if (v[i] != a) visit(tets.neighbour(tet, i) / 4);
+  }
+  return -1;
+}
+
+bool Recovery::tetrahedron_at_edge(Index a, Index b) const {
+  return search_star(tets_, a, [&](Index tet) {
+           const Tet& v = tets_.corners(tet);
+           return std::find(v.begin(), v.end(), b) != v.end() ? 4 * tet : -1;
+         }) >= 0;
+}
+
+void check_region(const LabelledTriangulation& mesh, Index tet, int i, Index solid) {
+  const Tet& v = mesh.tets.corners(tet);
+  const Index t = mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+  const Index claimed = mesh.boundary.solids(t)[corner_in_front(v, i, mesh.boundary.corners(t)) ? 1 : 0];
+  if (claimed == solid) return;
+  const Vec3 place = mesh.tets.point(mesh.boundary.corners(t)[0]);
+  throw Failure("boundary", "leak",
+                "the two sides of the boundary are not separated here: the faces overlap or leave a gap",
+                place, {2, mesh.boundary.face(t)});
+}
+
+}  // namespace
+
+LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
+                                       const SizeField& size, Context& context, RecoveryReport& report) {
+  context.begin("boundary");
+  LabelledTriangulation mesh{Triangulation(surface.points, context.threads),
+                             BoundaryComplex(surface, plc.face_solids)};
+  context.poll(0.4);
+  for (Index v = 0; v < static_cast<Index>(surface.points.size()); ++v)
+    if (mesh.tets.vertex_tet(v) < 0)
+      throw Failure("boundary", "repeated_point", "two boundary points coincide", surface.points[v],
+                    surface.point_entity[v]);
+  Recovery(mesh, geometry, size, context, report).run();
+  tag_solids(mesh);
+  return mesh;
+}
+
+Face find_face(const Triangulation& tets, Index a, Index b, Index c) {
+  return search_star(tets, a, [&](Index tet) -> Face {
+    const Tet& v = tets.corners(tet);
+    int others = 0, apex = -1;
+    for (int i = 0; i < 4; ++i) {
+      if (v[i] == b || v[i] == c)
+        ++others;
+      else if (v[i] != a)
+        apex = i;
+    }
+    return others == 2 ? 4 * tet + apex : -1;
+  });
+}
+
+void set_marked_both(Triangulation& tets, Face f, bool on) {
+  tets.set_marked(f / 4, f % 4, on);
+  const Face g = tets.neighbour(f / 4, f % 4);
+  tets.set_marked(g / 4, g % 4, on);
+}
+
+bool corner_in_front(const Tet& v, int i, const Triangle& t) {
+  // Face i of a positively oriented tetrahedron, ordered so that corner i is in front of it.
+  static constexpr int order[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  const Index a = v[order[i][0]], b = v[order[i][1]];
+  for (int k = 0; k < 3; ++k)
+    if (t[k] == a) return t[(k + 1) % 3] == b;
+  return false;
+}
+
+void tag_solids(LabelledTriangulation& mesh) {
+  Triangulation& tets = mesh.tets;
+  constexpr std::uint16_t unknown = 0xffff;
+  for (Index t = 0; t < tets.slot_count(); ++t)
+    if (!tets.is_free(t)) tets.set_tag(t, tets.is_ghost(t) ? 0 : unknown);
+  std::vector<Index> queue;
+  const auto flood = [&](Index start, std::uint16_t solid) {
+    tets.set_tag(start, solid);
+    queue.assign(1, start);
+    while (!queue.empty()) {
+      const Index t = queue.back();
+      queue.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        if (tets.marked(t, i)) continue;
+        const Index n = tets.neighbour(t, i) / 4;
+        if (tets.tag(n) != unknown) continue;
+        tets.set_tag(n, solid);
+        queue.push_back(n);
+      }
+    }
+  };
+  for (Index t = 0; t < tets.slot_count(); ++t)
+    if (!tets.is_free(t) && tets.is_ghost(t)) flood(t, 0);
+  for (Index t = 0; t < tets.slot_count(); ++t) {
+    if (tets.is_free(t) || tets.tag(t) != unknown || !tets.marks(t)) continue;
+    const int i = std::countr_zero(tets.marks(t));
+    const Tet& v = tets.corners(t);
+    const Index label = mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+    const bool front = corner_in_front(v, i, mesh.boundary.corners(label));
+    flood(t, static_cast<std::uint16_t>(mesh.boundary.solids(label)[front ? 1 : 0]));
+  }
+  for (Index t = 0; t < tets.slot_count(); ++t) {
+    if (tets.is_free(t) || tets.is_ghost(t)) continue;
+    for (int i = 0; i < 4; ++i)
+      if (tets.marked(t, i)) check_region(mesh, t, i, tets.tag(t));
+  }
+}
+
+void check_boundary(const LabelledTriangulation& mesh) {
+  const Triangulation& tets = mesh.tets;
+  Index marked = 0, alive = 0;
+  for (Index t = 0; t < tets.slot_count(); ++t) {
+    if (tets.is_free(t)) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Face g = tets.neighbour(t, i);
+      if (tets.marked(t, i) != tets.marked(g / 4, g % 4))
+        throw Failure("boundary", "check", "a face is marked on one side only",
+                      tets.point(tets.corners(t)[0]));
+      if (!tets.marked(t, i)) {
+        if (tets.tag(t) != tets.tag(g / 4))
+          throw Failure("boundary", "check", "the solid changes without a boundary",
+                        tets.point(tets.corners(t)[0]));
+        continue;
+      }
+      ++marked;
+      const Tet& v = tets.corners(t);
+      if (mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]) < 0)
+        throw Failure("boundary", "check", "a marked face carries no label", tets.point(v[(i + 1) & 3]));
+      if (!tets.is_ghost(t)) check_region(mesh, t, i, tets.tag(t));
+    }
+  }
+  for (Index t = 0; t < mesh.boundary.slot_count(); ++t) alive += mesh.boundary.alive(t);
+  if (marked != 2 * alive)
+    throw Failure("boundary", "check", "a labelled triangle is not a face of the triangulation");
+}
+
+}  // namespace dm

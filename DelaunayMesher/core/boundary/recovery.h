@@ -1,0 +1,49 @@
+// The boundary recovery stage: every labelled triangle becomes a face of the Delaunay triangulation.
+//
+// Idea: put all boundary points in the triangulation; where a labelled triangle is missing because the other
+// diagonal is Delaunay, flip it on the surface; where a foreign vertex intrudes, split the segment or the
+// triangle on the exact CAD geometry (Chew 1993; Shewchuk 1998 for segments before facets).  Labels are
+// carried, never guessed. Precondition: check_surface_mesh holds; triangles do not cross each other.
+// Postcondition (check_boundary): every labelled triangle is a face of the triangulation and marked on both
+// sides, every tetrahedron's tag is its solid (0 = outside), and tags change exactly at marked faces.
+// Cost: one pass over the tetrahedra, then work proportional to what is missing.
+// Limits: splitting stops at a floor relative to the size; what is then missing is reported by face.
+#pragma once
+
+#include "base/context.h"
+#include "boundary/complex.h"
+#include "kernel/triangulation.h"
+#include "sizing/size_field.h"
+
+namespace dm {
+
+// A Delaunay triangulation with the labelled boundary in it; vertex numbers are common to both.
+struct LabelledTriangulation {
+  Triangulation tets;
+  BoundaryComplex boundary;
+};
+
+struct RecoveryReport {
+  Index missing_at_start = 0, flips = 0, segment_splits = 0, triangle_splits = 0;
+};
+
+// Throws Failure("boundary", "unrecovered" | "leak", ...).
+LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
+                                       const SizeField& size, Context& context, RecoveryReport& report);
+
+// Face of the triangulation with corners a, b, c, or -1.
+Face find_face(const Triangulation& tets, Index a, Index b, Index c);
+
+// Marks or unmarks the face `f` on both of its sides.
+void set_marked_both(Triangulation& tets, Face f, bool on);
+
+// Does corner i of tet lie in front of (right-hand normal) its opposite face as `t` orders the corners?
+bool corner_in_front(const Tet& tet, int i, const Triangle& t);
+
+// Gives every tetrahedron the solid it lies in, by flooding from labelled faces.  Throws "leak".
+void tag_solids(LabelledTriangulation& mesh);
+
+// Every invariant of the postcondition; throws Failure("boundary", ...).
+void check_boundary(const LabelledTriangulation& mesh);
+
+}  // namespace dm

@@ -1,0 +1,96 @@
+#include "mesher.h"
+
+#include <chrono>
+
+#include "boundary/recovery.h"
+#include "refinement/extract.h"
+#include "refinement/refine.h"
+#include "surfaces/remesh.h"
+
+namespace dm {
+
+namespace {
+
+class StageClock {
+ public:
+  explicit StageClock(MeshResult& result) : result_(result) {}
+  void stop(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    result_.seconds.emplace_back(stage, std::chrono::duration<double>(now - start_).count());
+    start_ = now;
+  }
+
+ private:
+  MeshResult& result_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void refuse_if_too_many(const SizeField& size, std::int64_t limit) {
+  const double predicted = size.predicted_tetrahedra();
+  if (limit <= 0 || predicted <= static_cast<double>(limit)) return;
+  throw Failure("sizing", "too_many_elements",
+                "the sizes ask for about " + std::to_string(static_cast<std::int64_t>(predicted)) +
+                    " tetrahedra, more than the limit of " + std::to_string(limit) +
+                    "; use a larger size or raise --max-elements");
+}
+
+void record(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
+  auto& s = result.statistics;
+  const auto add = [&](const char* name, double value) { s.emplace_back(name, value); };
+  add("boundary_missing_at_start", recovery.missing_at_start);
+  add("boundary_flips", recovery.flips);
+  add("boundary_splits", recovery.segment_splits + recovery.triangle_splits);
+  add("refinement_sites", static_cast<double>(refinement.sites));
+  add("refinement_tries", static_cast<double>(refinement.tries));
+  add("refinement_relaxed", static_cast<double>(refinement.relaxed));
+  add("refinement_encroached", static_cast<double>(refinement.encroached));
+  add("refinement_boundary_splits",
+      static_cast<double>(refinement.triangle_splits + refinement.segment_splits));
+  add("refinement_boundary_flips", static_cast<double>(refinement.flips));
+  add("refinement_slivers", static_cast<double>(refinement.slivers));
+}
+
+}  // namespace
+
+MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOptions& options,
+                     Context& context) {
+  MeshResult result;
+  StageClock clock(result);
+  context.begin("plc");
+  check_plc(plc);
+  const Geometry geometry(plc, std::move(records));
+  clock.stop("plc");
+
+  const SizeField size(plc, geometry, options.size, context);
+  refuse_if_too_many(size, options.max_elements);
+  result.statistics.emplace_back("predicted_tetrahedra", size.predicted_tetrahedra());
+  clock.stop("sizing");
+
+  const SurfaceMesh surface = mesh_surfaces(plc, geometry, size, {}, context);
+  clock.stop("surfaces");
+
+  RecoveryReport recovery;
+  LabelledTriangulation labelled = recover_boundary(surface, plc, geometry, size, context, recovery);
+  clock.stop("boundary");
+
+  RefineReport refinement;
+  mark_acute_segments(labelled, kAcuteAngle);
+  refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
+  result.mesh = extract_volume_mesh(labelled);
+  record(result, recovery, refinement);
+  clock.stop("refinement");
+
+  if (options.optimise) {
+    optimise(result.mesh, geometry, size, {}, context);
+    clock.stop("optimisation");
+  }
+  if (options.order == 2) {
+    result.second_order = make_second_order(result.mesh, geometry, context);
+    clock.stop("order");
+  }
+  result.below_target = certify(result.mesh, size, options.target_angle);
+  clock.stop("certificate");
+  return result;
+}
+
+}  // namespace dm

@@ -1,0 +1,52 @@
+// The test that decides whether a proposed site is taken: the sharpest dihedral angle of the new tetrahedra.
+//
+// Angles are compared through c |c| of their cosine c, which needs neither a square root nor acos.
+#pragma once
+
+#include "boundary/recovery.h"
+
+namespace dm {
+
+// Monotone in the cosine: cos * |cos|.
+inline double sharpness_of_angle(double degrees) {
+  const double c = std::cos(degrees * std::numbers::pi / 180);
+  return c * std::abs(c);
+}
+
+// Largest cos|cos| over the six dihedral angles (the sharpest angle); bit k of `exempt` skips kFacePairs[k].
+inline double sharpness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, unsigned exempt = 0) {
+  const Vec3 u = b - a, v = c - a, w = d - a, x = c - b, y = d - b;
+  const Vec3 n[4] = {cross(y, x), cross(v, w), cross(w, u), cross(u, v)};
+  const double l[4] = {1 / norm2(n[0]), 1 / norm2(n[1]), 1 / norm2(n[2]), 1 / norm2(n[3])};
+  double worst = -1;
+  for (int k = 0; k < 6; ++k) {
+    const auto [i, j] = kFacePairs[k];
+    const double s = -dot(n[i], n[j]);
+    const double q = s * std::abs(s) * l[i] * l[j];
+    if (!(q <= worst) && !(exempt >> k & 1)) worst = q;
+  }
+  return worst == worst ? worst : 1;  // a flat face makes NaN: the worst there is
+}
+
+// Bits of the dihedral angles of (corners, site) that lie on acute segments of the input.
+unsigned exempt_angles(const BoundaryComplex& complex, Index v0, Index v1, Index v2, Index v3);
+
+// Sharpness of a tetrahedron of the mesh, acute segments left out.
+double tet_sharpness(const LabelledTriangulation& mesh, Index tet);
+
+// Circumradius bound of the refinement: rho(x)^2.
+struct RadiusBound {
+  const SizeField& size;
+  double factor = 0.8;
+  double squared(const Vec3& p) const {
+    const double r = factor * size.at(p);
+    return r * r;
+  }
+};
+
+// Sharpness of the worst tetrahedron that site p would make and that would stay: on a labelled face, or with
+// a circumradius within the bound.  Stops early once it exceeds `give_up`.
+double evaluate_site(const LabelledTriangulation& mesh, const Cavity& cavity, const Vec3& p,
+                     const RadiusBound& bound, double target, double give_up);
+
+}  // namespace dm

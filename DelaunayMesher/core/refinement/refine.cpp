@@ -1,0 +1,315 @@
+#include "refinement/refine.h"
+
+#include <algorithm>
+
+#include "base/random.h"
+#include "refinement/angle_test.h"
+#include "refinement/boundary_flip.h"
+#include "refinement/boundary_site.h"
+
+namespace dm {
+
+namespace {
+
+// Measured on prototypes and again here: docs/refinement.md has the figures behind each constant.
+constexpr int kTries = 40;
+constexpr int kEncroachedTries = 3;  // consecutive refusals by the boundary before it is split
+constexpr double kFirstPick = 0.1, kPickStep = 0.03, kLargestPick = 0.6;  // f_k of a site inside
+constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
+constexpr double kLargestSurfacePick = 0.5;
+constexpr double kTriangleFloor = 0.5;  // circumradius over wanted edge: smaller triangles are not split
+constexpr double kSegmentFloor = 0.6;   // length over wanted edge
+constexpr double kRejected = 2;         // sharpness of no candidate at all
+
+class Refinement {
+ public:
+  Refinement(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
+             const RefineOptions& options, Context& context, RefineReport& report)
+      : mesh_(mesh),
+        tets_(mesh.tets),
+        geometry_(geometry),
+        size_(size),
+        bound_{size},
+        options_(options),
+        context_(context),
+        report_(report),
+        target_(sharpness_of_angle(options.target_angle)),
+        boundary_site_(mesh, bound_, target_),
+        expected_sites_(std::max(1.0, size.predicted_tetrahedra() / 5.5)) {}
+
+  void run() {
+    collect();
+    sort_along_curve(next_);
+    drain();
+    sliver_mode_ = true;
+    for (int round = 0; round < options_.sliver_rounds; ++round) {
+      collect();
+      report_.slivers += static_cast<std::int64_t>(next_.size());
+      if (next_.empty()) break;
+      drain();
+    }
+  }
+
+ private:
+  bool is_inside(Index tet) const { return !tets_.is_free(tet) && tets_.tag(tet) != 0; }
+  double edge_size(const Vec3& p) const { return 0.8 * size_.at(p); }
+
+  Sphere sphere_of(Index tet) const {
+    const auto [a, b, c, d] = tets_.corners(tet);
+    return circumsphere(tets_.point(a), tets_.point(b), tets_.point(c), tets_.point(d));
+  }
+
+  bool is_bad(Index tet) const {
+    const Sphere s = sphere_of(tet);
+    if (s.radius2 > bound_.squared(s.centre)) return true;
+    return sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
+  }
+
+  void push_if_bad(Index tet) {
+    if (is_inside(tet) && is_bad(tet)) next_.push_back(tet);
+  }
+
+  void collect() {
+    next_.clear();
+    for (Index t = 0; t < tets_.slot_count(); ++t) push_if_bad(t);
+  }
+
+  // Morton order of the circumcentres' cells: neighbours in the list are neighbours in memory.
+  void sort_along_curve(std::vector<Index>& list) const {
+    Vec3 low = tets_.point(0), high = low;
+    for (const Vec3& p : tets_.points())
+      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    const auto key = [&](Index t) {
+      const Vec3 p = 0.25 * (tets_.point(tets_.corners(t)[0]) + tets_.point(tets_.corners(t)[1]) +
+                             tets_.point(tets_.corners(t)[2]) + tets_.point(tets_.corners(t)[3])) -
+                     low;
+      std::uint64_t k = 0;
+      for (int bit = 15; bit >= 0; --bit)
+        for (int i = 0; i < 3; ++i)
+          k = k << 1 | (static_cast<std::uint64_t>(p[i] / extent * 65535) >> bit & 1);
+      return k;
+    };
+    std::vector<std::pair<std::uint64_t, Index>> keyed;
+    keyed.reserve(list.size());
+    for (const Index t : list) keyed.emplace_back(key(t), t);
+    std::sort(keyed.begin(), keyed.end());
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = keyed[i].second;
+  }
+
+  // Rounds: what one round makes bad waits for the next.
+  void drain() {
+    while (!next_.empty()) {
+      work_.swap(next_);
+      next_.clear();
+      for (const Index tet : work_) {
+        if ((++steps_ & 63) == 0) context_.poll(0.95 * static_cast<double>(report_.sites) / expected_sites_);
+        process(tet);
+      }
+    }
+  }
+
+  void process(Index tet) {
+    if (!is_inside(tet)) return;
+    const Sphere sphere = sphere_of(tet);
+    const bool big = sphere.radius2 > bound_.squared(sphere.centre);
+    const bool sliver = !big && sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
+    if (!big && !sliver) return;
+    if (peel(mesh_, tet, sphere.centre, sliver_mode_ && tet_sharpness(mesh_, tet) > target_)) {
+      ++report_.flips;
+      return;
+    }
+    if (!insert_inside(tet, sphere, big)) insert_on_boundary(tet);
+  }
+
+  // Tries random sites round the circumcentre.  False when the boundary is in the way.
+  bool insert_inside(Index tet, const Sphere& sphere, bool big) {
+    const std::uint16_t tag = tets_.tag(tet);
+    const double radius = std::sqrt(sphere.radius2);
+    Tet key = tets_.corners(tet);
+    std::sort(key.begin(), key.end());
+    double best = kRejected;
+    Vec3 best_site;
+    int refused = 0;
+    hits_.clear();
+    for (int k = 0; k < kTries; ++k) {
+      const double f = big ? std::min(kLargestPick, kFirstPick + kPickStep * k)
+                           : std::min(kSliverLargestPick, kSliverFirstPick + kPickStep * k);
+      Random random(context_.seed, key[0], key[1], key[2], key[3], k);
+      const Vec3 site = sphere.centre + (f * radius) * random.in_ball();
+      ++report_.tries;
+      if (!find_cavity_inside(site, tet, tag)) {
+        ++report_.encroached;
+        if (++refused >= kEncroachedTries && best == kRejected) break;
+        continue;
+      }
+      if (cavity_.border.empty()) continue;
+      const double s = evaluate_site(mesh_, cavity_, site, bound_, target_, best);
+      if (s <= target_) return commit_inside(site), true;
+      if (s < best) best = s, best_site = site;
+    }
+    if (refused && best > target_) return false;
+    if (big && best < kRejected) relax(tet, best_site);
+    return true;
+  }
+
+  // The best site seen although it misses the target; the slivers it leaves are cured in later rounds.
+  void relax(Index tet, const Vec3& site) {
+    if (tets_.find_cavity(site, tet, true, cavity_) >= 0) return;
+    commit_inside(site);
+    ++report_.relaxed;
+  }
+
+  // False when the site encroaches on the boundary: its cavity would swallow a labelled triangle.
+  bool find_cavity_inside(const Vec3& site, Index tet, std::uint16_t tag) {
+    for (int flips = 0; flips < 8; ++flips) {
+      const Face f = tets_.find_cavity(site, tet, true, cavity_);
+      if (f < 0) return true;
+      Index beyond = tets_.neighbour(f / 4, f % 4) / 4;
+      if (tets_.tag(beyond) == tag) beyond = f / 4;
+      if (!flip_in(mesh_, beyond, tag)) {
+        remember_hit(f);
+        return false;
+      }
+      ++report_.flips;
+    }
+    return false;
+  }
+
+  void remember_hit(Face f) {
+    Index tet = f / 4;
+    int i = f % 4;
+    if (tets_.is_ghost(tet)) {
+      const Face g = tets_.neighbour(tet, i);
+      tet = g / 4, i = g % 4;
+    }
+    const Tet& v = tets_.corners(tet);
+    const Index label = mesh_.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+    for (auto& [triangle, count] : hits_)
+      if (triangle == label) return void(++count);
+    hits_.push_back({label, 1});
+  }
+
+  void commit_inside(const Vec3& site) {
+    tets_.insert(site, cavity_);
+    ++report_.sites;
+    for (const Index t : cavity_.created) push_if_bad(t);
+  }
+
+  // Splits the labelled triangle that refused most sites.
+  void insert_on_boundary(Index tet) {
+    Index worst = -1;
+    int most = 0;
+    for (const auto& [triangle, count] : hits_)
+      if (count > most && mesh_.boundary.alive(triangle)) worst = triangle, most = count;
+    if (worst >= 0 && split_triangle(worst, tet)) push_if_bad(tet);
+  }
+
+  bool split_triangle(Index t, Index hint) {
+    const Triangle q = mesh_.boundary.corners(t);
+    const Sphere circle = circumcircle(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
+    const double radius = std::sqrt(circle.radius2);
+    if (!(radius >= kTriangleFloor * edge_size(circle.centre)) || !std::isfinite(radius)) return false;
+    const Index face = mesh_.boundary.face(t);
+    double best = kRejected;
+    Vec3 best_site;
+    segments_.clear();
+    for (int k = 0; k < kTries; ++k) {
+      Random random(context_.seed, q[0], q[1], q[2], k, 3);
+      const double f = std::min(kLargestSurfacePick, kFirstPick + kPickStep * k);
+      const Vec3 site = geometry_.project_to_face(face, circle.centre + (f * radius) * random.in_ball());
+      const SiteVerdict verdict = boundary_site_.propose(site, hint, t, -1, -1);
+      if (verdict == SiteVerdict::segment) {
+        segments_.push_back(boundary_site_.swallowed_segment());
+        if (k >= kEncroachedTries && best == kRejected) break;
+      }
+      if (verdict != SiteVerdict::ok) continue;
+      if (boundary_site_.quality() <= target_) return commit_boundary(report_.triangle_splits);
+      if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
+    }
+    if (best < kRejected && !sliver_mode_ &&
+        boundary_site_.propose(best_site, hint, t, -1, -1) == SiteVerdict::ok)
+      return commit_boundary(report_.triangle_splits);
+    return split_any_segment(hint);
+  }
+
+  bool split_any_segment(Index hint) {
+    const std::vector<Segment> candidates(segments_);
+    return std::any_of(candidates.begin(), candidates.end(),
+                       [&](const Segment& s) { return split_segment(s[0], s[1], hint); });
+  }
+
+  bool split_segment(Index a, Index b, Index hint) {
+    const Vec3 pa = tets_.point(a), pb = tets_.point(b);
+    if (distance(pa, pb) < kSegmentFloor * edge_size(0.5 * (pa + pb))) return false;
+    const Index edge = mesh_.boundary.segment(a, b);
+    if (edge < 0) return false;
+    double best = kRejected;
+    Vec3 best_site;
+    for (int k = 0; k < kTries; ++k) {
+      Random random(context_.seed, std::min(a, b), std::max(a, b), k, 4);
+      const double w = 0.5 + std::min(0.25, 0.02 + 0.01 * k) * random.symmetric();
+      const Vec3 site = geometry_.project_to_edge(edge, w * pa + (1 - w) * pb);
+      if (boundary_site_.propose(site, hint, -1, a, b) != SiteVerdict::ok) continue;
+      if (boundary_site_.quality() <= target_) return commit_boundary(report_.segment_splits);
+      if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
+    }
+    if (best == kRejected || sliver_mode_) return false;
+    return boundary_site_.propose(best_site, hint, -1, a, b) == SiteVerdict::ok &&
+           commit_boundary(report_.segment_splits);
+  }
+
+  bool commit_boundary(std::int64_t& counter) {
+    ++counter;
+    for (const Index t : boundary_site_.commit()) push_if_bad(t);
+    return true;
+  }
+
+  LabelledTriangulation& mesh_;
+  Triangulation& tets_;
+  const Geometry& geometry_;
+  const SizeField& size_;
+  RadiusBound bound_;
+  const RefineOptions& options_;
+  Context& context_;
+  RefineReport& report_;
+  double target_;
+  BoundarySite boundary_site_;
+  double expected_sites_;
+  bool sliver_mode_ = false;
+  std::uint64_t steps_ = 0;
+  Cavity cavity_;
+  std::vector<Index> work_, next_;
+  std::vector<std::pair<Index, int>> hits_;  // labelled triangles that refused a site, and how often
+  std::vector<Segment> segments_;            // segments that surface sites would swallow
+};
+
+}  // namespace
+
+void refine(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
+            const RefineOptions& options, Context& context, RefineReport& report) {
+  context.begin("refinement");
+  Refinement(mesh, geometry, size, options, context, report).run();
+}
+
+void mark_acute_segments(LabelledTriangulation& mesh, double angle) {
+  BoundaryComplex& complex = mesh.boundary;
+  const auto& p = mesh.tets.points();
+  BoundaryComplex::Fan fan;
+  for (const auto& [key, edge] : complex.segments()) {
+    const auto [a, b] = BoundaryComplex::segment_of_key(key);
+    const int n = complex.triangles_at(a, b, fan);
+    const Vec3 axis = normalized(p[b] - p[a]);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < i; ++j) {
+        const auto away = [&](Index t) {
+          const Vec3 w = p[opposite_corner(complex, t, a, b)] - p[a];
+          return normalized(w - dot(w, axis) * axis);
+        };
+        const double opening = std::acos(std::clamp(dot(away(fan[i]), away(fan[j])), -1.0, 1.0));
+        if (opening * 180 / std::numbers::pi < angle) complex.set_acute(a, b);
+      }
+  }
+}
+
+}  // namespace dm

@@ -1,0 +1,38 @@
+// The refinement stage: Chew's algorithm (1997) with graded density and a dihedral-angle test.
+//
+// Idea: a tetrahedron is bad when its circumradius exceeds rho(x) = 0.8 h(x) at its circumcentre.  Its site
+// is a random point in the ball of radius f_k R round the circumcentre, f_k growing with the try k; the site
+// is taken when every new tetrahedron that is small enough to stay has all dihedral angles above the target.
+// A site whose cavity would swallow a labelled boundary triangle is refused; when that goes on, the triangle
+// is split at a random point near its circumcentre on the exact CAD surface.  Slivers that are left over are
+// bad tetrahedra of later rounds.  Rounds run in the order of a space-filling curve. Rules R1 to R3
+// (docs/refinement.md): tetrahedra on labelled faces are tested whatever their radius; a tetrahedron with two
+// labelled faces of one CAD face belongs to the side where its circumcentre lies. Precondition:
+// check_boundary holds.  Postcondition: it still holds and the triangulation is Delaunay; no tetrahedron of a
+// solid is bad but those that the report lists. Cost: about 3 proposals per site at 20 degrees.  Termination:
+// docs/guarantees.md.
+#pragma once
+
+#include "base/context.h"
+#include "boundary/recovery.h"
+
+namespace dm {
+
+struct RefineOptions {
+  double target_angle = 20;  // degrees
+  int sliver_rounds = 8;
+};
+
+struct RefineReport {
+  std::int64_t sites = 0, tries = 0, relaxed = 0;
+  std::int64_t encroached = 0, triangle_splits = 0, segment_splits = 0, flips = 0, slivers = 0;
+};
+
+void refine(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
+            const RefineOptions& options, Context& context, RefineReport& report);
+
+// Marks the segments at which the solids' own dihedral angle is below `angle` degrees: no mesh can do better
+// there.
+void mark_acute_segments(LabelledTriangulation& mesh, double angle);
+
+}  // namespace dm
