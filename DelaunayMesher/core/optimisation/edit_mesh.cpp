@@ -1,0 +1,230 @@
+#include "optimisation/edit_mesh.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace dm {
+namespace {
+
+Triangle sorted(Triangle t) {
+  if (t[0] > t[1]) std::swap(t[0], t[1]);
+  if (t[1] > t[2]) std::swap(t[1], t[2]);
+  if (t[0] > t[1]) std::swap(t[0], t[1]);
+  return t;
+}
+
+Triangle face_corners(const Tet& tet, int face) {
+  const auto& f = EditMesh::kFace[face];
+  return {tet[f[0]], tet[f[1]], tet[f[2]]};
+}
+
+struct TriangleHash {
+  std::size_t operator()(const Triangle& t) const {
+    std::uint64_t h = static_cast<std::uint64_t>(t[0]) * 0x9e3779b97f4a7c15ULL;
+    h = (h ^ static_cast<std::uint64_t>(t[1])) * 0xbf58476d1ce4e5b9ULL;
+    h = (h ^ static_cast<std::uint64_t>(t[2])) * 0x94d049bb133111ebULL;
+    return h ^ (h >> 29);
+  }
+};
+
+}  // namespace
+
+EditMesh::EditMesh(VolumeMesh& mesh) : mesh_(mesh) {
+  build_vertex_tets();
+  build_point_faces();
+  mark_boundary();
+  bad_.resize(mesh.tets.size());
+  for (std::size_t t = 0; t < bad_.size(); ++t) bad_[t] = compute_bad(mesh.tets[t]);
+  stamp_.assign(mesh.tets.size(), 0);
+}
+
+void EditMesh::build_vertex_tets() {
+  vertex_tet_.assign(mesh_.points.size(), -1);
+  for (Index t = 0; t < slot_count(); ++t)
+    for (Index v : mesh_.tets[t]) vertex_tet_[v] = t;
+}
+
+void EditMesh::build_point_faces() {
+  const std::size_t n = mesh_.points.size();
+  face_start_.assign(n + 1, 0);
+  for (const Triangle& t : mesh_.triangles)
+    for (Index v : t) ++face_start_[v + 1];
+  for (std::size_t v = 0; v < n; ++v) face_start_[v + 1] += face_start_[v];
+  point_faces_.resize(face_start_[n]);
+  std::vector<Index> end(face_start_.begin(), face_start_.end() - 1);
+  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
+    for (Index v : mesh_.triangles[k]) point_faces_[end[v]++] = mesh_.triangle_face[k];
+  Index out = 0;  // keep each face once per point
+  for (std::size_t v = 0; v < n; ++v) {
+    const auto first = point_faces_.begin() + face_start_[v], last = point_faces_.begin() + end[v];
+    std::sort(first, last);
+    const auto unique_last = std::unique(first, last);
+    face_start_[v] = out;
+    for (auto it = first; it != unique_last; ++it) point_faces_[out++] = *it;
+  }
+  face_start_[n] = out;
+  point_faces_.resize(out);
+}
+
+// A face is marked where the neighbour is missing or of another solid; triangles embedded in one solid are
+// rare, so they are looked for only when the count says that there are any.
+void EditMesh::mark_boundary() {
+  marks_.assign(mesh_.tets.size(), 0);
+  std::size_t count = 0;
+  for (Index t = 0; t < slot_count(); ++t)
+    for (int i = 0; i < 4; ++i) {
+      const Index n = mesh_.neighbours[t][i];
+      if (n >= 0 && mesh_.tet_solid[n / 4] == mesh_.tet_solid[t]) continue;
+      marks_[t] |= static_cast<std::uint8_t>(1 << i);
+      if (n < t * 4) ++count;
+    }
+  if (count == mesh_.triangles.size()) return;
+  std::unordered_set<Triangle, TriangleHash> boundary;
+  for (const Triangle& t : mesh_.triangles) boundary.insert(sorted(t));
+  for (Index t = 0; t < slot_count(); ++t)
+    for (int i = 0; i < 4; ++i)
+      if (boundary.count(sorted(face_corners(mesh_.tets[t], i))))
+        marks_[t] |= static_cast<std::uint8_t>(1 << i);
+}
+
+std::span<const Index> EditMesh::star(Index v) {
+  star_.clear();
+  if (vertex_tet_[v] < 0) return {};
+  ++stamp_value_;
+  star_.push_back(vertex_tet_[v]);
+  stamp_[vertex_tet_[v]] = stamp_value_;
+  for (std::size_t k = 0; k < star_.size(); ++k) {
+    const Index t = star_[k];
+    const int own = corner_index(t, v);
+    for (int i = 0; i < 4; ++i) {
+      if (i == own) continue;
+      const Index n = mesh_.neighbours[t][i];
+      if (n < 0 || stamp_[n / 4] == stamp_value_) continue;
+      stamp_[n / 4] = stamp_value_;
+      star_.push_back(n / 4);
+    }
+  }
+  return star_;
+}
+
+bool EditMesh::on_one_face(Index a, Index b, Index c) const {
+  if (interior(a) || interior(b) || interior(c)) return false;
+  for (Index f : faces_of(a)) {
+    const auto fb = faces_of(b), fc = faces_of(c);
+    if (std::find(fb.begin(), fb.end(), f) != fb.end() && std::find(fc.begin(), fc.end(), f) != fc.end())
+      return true;
+  }
+  return false;
+}
+
+Index EditMesh::take_slot() {
+  if (!free_.empty()) {
+    const Index t = free_.back();
+    free_.pop_back();
+    return t;
+  }
+  mesh_.tets.emplace_back();
+  mesh_.neighbours.emplace_back();
+  mesh_.tet_solid.emplace_back();
+  bad_.emplace_back();
+  marks_.emplace_back();
+  stamp_.emplace_back(0);
+  return slot_count() - 1;
+}
+
+std::span<const Index> EditMesh::replace(std::span<const Index> before, std::span<const Tet> after) {
+  struct OpenFace {
+    Triangle key;
+    Index link;  // outside: the neighbour; inside: 4 * tet + face of a new tetrahedron
+    bool marked, outside;
+  };
+  std::array<OpenFace, 4 * kMaxReplace> open;
+  int count = 0;
+  ++stamp_value_;
+  for (Index t : before) stamp_[t] = stamp_value_;
+  for (Index t : before)
+    for (int i = 0; i < 4; ++i) {
+      const Index n = mesh_.neighbours[t][i];
+      if (n >= 0 && stamp_[n / 4] == stamp_value_) continue;
+      open[count++] = {sorted(face_corners(mesh_.tets[t], i)), n, marked(t, i), true};
+    }
+  const Index solid = mesh_.tet_solid[before[0]];
+  for (Index t : before) {  // a point that gets no new tetrahedron below has left the mesh
+    for (Index v : mesh_.tets[t])
+      if (vertex_tet_[v] == t) vertex_tet_[v] = -1;
+    mesh_.tets[t][0] = kRemoved;
+  }
+  // Its own slots first: neighbours stay close in memory.
+  for (auto it = before.rbegin(); it != before.rend(); ++it) free_.push_back(*it);
+  created_.clear();
+  for (const Tet& corners : after) {
+    const Index t = take_slot();
+    created_.push_back(t);
+    mesh_.tets[t] = corners;
+    mesh_.tet_solid[t] = solid;
+    bad_[t] = compute_bad(corners);
+    marks_[t] = 0;
+    for (int i = 0; i < 4; ++i) {
+      const Triangle key = sorted(face_corners(corners, i));
+      const auto end = open.begin() + count;
+      const auto match = std::find_if(open.begin(), end, [&](const OpenFace& f) { return f.key == key; });
+      if (match == end) {
+        open[count++] = {key, 4 * t + i, false, false};
+        continue;
+      }
+      mesh_.neighbours[t][i] = match->link;
+      if (match->link >= 0) mesh_.neighbours[match->link / 4][match->link % 4] = 4 * t + i;
+      if (match->marked) marks_[t] |= static_cast<std::uint8_t>(1 << i);
+      *match = open[--count];
+    }
+    for (Index v : corners) vertex_tet_[v] = t;
+  }
+  return created_;
+}
+
+Index EditMesh::add_point(const Vec3& p, Entity entity) {
+  mesh_.points.push_back(p);
+  mesh_.point_entity.push_back(entity);
+  vertex_tet_.push_back(-1);
+  face_start_.push_back(face_start_.back());
+  return vertex_count() - 1;
+}
+
+void EditMesh::finish() {
+  std::vector<Index> place(mesh_.tets.size(), -1);
+  Index count = 0;
+  for (Index t = 0; t < slot_count(); ++t)
+    if (!removed(t)) place[t] = count++;
+  for (Index t = 0; t < slot_count(); ++t) {
+    if (place[t] < 0) continue;
+    const Index to = place[t];
+    mesh_.tets[to] = mesh_.tets[t];
+    mesh_.tet_solid[to] = mesh_.tet_solid[t];
+    for (int i = 0; i < 4; ++i) {
+      const Index n = mesh_.neighbours[t][i];
+      mesh_.neighbours[to][i] = n < 0 ? -1 : 4 * place[n / 4] + n % 4;
+    }
+  }
+  mesh_.tets.resize(count);
+  mesh_.neighbours.resize(count);
+  mesh_.tet_solid.resize(count);
+  std::vector<Index> point_place(mesh_.points.size(), -1);
+  Index points = 0;
+  for (Index v = 0; v < vertex_count(); ++v) {
+    if (vertex_tet_[v] < 0) continue;
+    mesh_.points[points] = mesh_.points[v];
+    mesh_.point_entity[points] = mesh_.point_entity[v];
+    point_place[v] = points++;
+  }
+  if (points == vertex_count()) return;
+  mesh_.points.resize(points);
+  mesh_.point_entity.resize(points);
+  for (Tet& t : mesh_.tets)
+    for (Index& v : t) v = point_place[v];
+  for (Triangle& t : mesh_.triangles)
+    for (Index& v : t) v = point_place[v];
+  for (Segment& s : mesh_.segments)
+    for (Index& v : s) v = point_place[v];
+}
+
+}  // namespace dm

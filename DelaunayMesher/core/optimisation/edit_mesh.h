@@ -1,0 +1,82 @@
+// The mesh while it is being optimised: adjacency that can be edited locally, and the badness of every
+// element.
+//
+// Works in place on the tetrahedra of a VolumeMesh.  Removed tetrahedra leave free slots that later ones use
+// again; finish() closes the gaps.  Faces of the boundary triangulation are marked and never change here.
+// All changes of connectivity go through replace(): a set of tetrahedra gives way to another one with the
+// same outer faces.  Precondition: check_volume_mesh(mesh).  After finish() it holds again.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/volume_mesh.h"
+#include "optimisation/quality.h"
+
+namespace dm {
+
+class EditMesh {
+ public:
+  explicit EditMesh(VolumeMesh& mesh);
+  void finish();
+
+  // Corners of face i, so ordered that (face, corner i) is positively oriented.
+  static constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  static constexpr int kMaxReplace = 64;  // tetrahedra of one replacement, old and new each
+  static constexpr Index kRemoved = -1;
+
+  Index slot_count() const { return static_cast<Index>(mesh_.tets.size()); }
+  bool removed(Index tet) const { return mesh_.tets[tet][0] == kRemoved; }
+  const Tet& tet(Index t) const { return mesh_.tets[t]; }
+  Index neighbour(Index t, int face) const { return mesh_.neighbours[t][face]; }
+  bool marked(Index t, int face) const { return marks_[t] >> face & 1; }
+  Index solid(Index t) const { return mesh_.tet_solid[t]; }
+  Index vertex_tet(Index v) const { return vertex_tet_[v]; }  // -1: isolated
+  Index vertex_count() const { return static_cast<Index>(mesh_.points.size()); }
+  const Vec3& point(Index v) const { return mesh_.points[v]; }
+  Entity entity(Index v) const { return mesh_.point_entity[v]; }
+  bool interior(Index v) const { return mesh_.point_entity[v].dimension == 3; }
+  double bad(Index t) const { return bad_[t]; }
+  int corner_index(Index t, Index v) const {
+    const Tet& c = mesh_.tets[t];
+    return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : 3;
+  }
+  double compute_bad(const Tet& t) const {
+    return tet_badness(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
+  }
+  AngleCosines cosines(const Tet& t) const {
+    return angle_cosines(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
+  }
+
+  // The tetrahedra at v, in an order given by the data alone.  The span is valid until the next call.
+  std::span<const Index> star(Index v);
+  // CAD faces the boundary point v lies on, sorted; empty for interior points.
+  std::span<const Index> faces_of(Index v) const {
+    return {point_faces_.data() + face_start_[v],
+            static_cast<std::size_t>(face_start_[v + 1] - face_start_[v])};
+  }
+  // Do all three points lie on one CAD face?  No interior triangle may be made of them.
+  bool on_one_face(Index a, Index b, Index c) const;
+
+  void set_point(Index v, const Vec3& p) { mesh_.points[v] = p; }
+  void set_bad(Index t, double bad) { bad_[t] = bad; }
+  // Puts `after` in the place of `before`.  Precondition: same outer faces, one solid, no marked inner face.
+  // Returns the slots of the new tetrahedra; the span is valid until the next call.
+  std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after);
+  Index add_point(const Vec3& p, Entity entity);
+
+ private:
+  void build_vertex_tets();
+  void build_point_faces();
+  void mark_boundary();
+  Index take_slot();
+
+  VolumeMesh& mesh_;
+  std::vector<double> bad_;
+  std::vector<std::uint8_t> marks_;
+  std::vector<Index> vertex_tet_, face_start_, point_faces_, free_, stamp_, star_, created_;
+  Index stamp_value_ = 0;
+};
+
+}  // namespace dm

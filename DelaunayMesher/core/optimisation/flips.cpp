@@ -1,0 +1,152 @@
+#include "optimisation/flips.h"
+
+namespace dm {
+namespace {
+
+constexpr double kGain = 1e-3;  // of badness: less is not worth a change
+
+// The corners c, d that make (a, b, c, d) positively oriented, for the edge (a, b) by local indices.
+constexpr int kEdgeRest[4][4][2] = {{{-1, -1}, {2, 3}, {3, 1}, {1, 2}},
+                                    {{3, 2}, {-1, -1}, {0, 3}, {2, 0}},
+                                    {{1, 3}, {3, 0}, {-1, -1}, {0, 1}},
+                                    {{2, 1}, {0, 2}, {1, 0}, {-1, -1}}};
+
+}  // namespace
+
+bool is_better(const AngleCosines& before, const AngleCosines& after) {
+  constexpr double kSharpFree = 0.848, kBluntFree = -0.719;  // cos 32, cos 136
+  return badness(after) < badness(before) && after.sharp <= std::max(before.sharp, kSharpFree) &&
+         after.blunt >= std::min(before.blunt, kBluntFree);
+}
+
+// False when the edge is on the boundary or its ring is too long.
+bool Flipper::find_ring(Index start, int ia, int ib, Ring& ring) const {
+  const Tet& first = mesh_.tet(start);
+  ring.a = first[ia];
+  ring.b = first[ib];
+  ring.count = 0;
+  int ic = kEdgeRest[ia][ib][0], id = kEdgeRest[ia][ib][1];
+  for (Index t = start;;) {
+    if (ring.count == kMaxRing) return false;
+    ring.tet[ring.count] = t;
+    ring.corner[ring.count++] = mesh_.tet(t)[ic];
+    if (mesh_.marked(t, ic)) return false;
+    const Index last = mesh_.tet(t)[id];
+    const Index n = mesh_.neighbour(t, ic);
+    t = n / 4;
+    if (t == start) return true;
+    id = n % 4;
+    ic = mesh_.corner_index(t, last);
+  }
+}
+
+// Best triangulation of the ring in the min-max sense; false when none is below `bound`.
+bool Flipper::triangulate(const Ring& ring, double bound, Plan& plan) {
+  const int n = ring.count;
+  fan_.clear();
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j)
+      for (int k = j + 1; k < n; ++k)
+        fan_.add(mesh_.point(ring.corner[i]), mesh_.point(ring.corner[j]), mesh_.point(ring.corner[k]));
+  double upper[Fan::kCapacity], lower[Fan::kCapacity];
+  fan_badness(fan_, mesh_.point(ring.b), 1, upper);
+  fan_badness(fan_, mesh_.point(ring.a), -1, lower);
+  double cost[kMaxRing][kMaxRing][kMaxRing];
+  for (int i = 0, m = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j)
+      for (int k = j + 1; k < n; ++k, ++m) cost[i][j][k] = std::max(upper[m], lower[m]);
+  double best[kMaxRing][kMaxRing];
+  for (int i = 0; i + 1 < n; ++i) best[i][i + 1] = 0;
+  for (int length = 2; length < n; ++length)
+    for (int i = 0; i + length < n; ++i) {
+      const int k = i + length;
+      best[i][k] = kInverted;
+      middle_[i][k] = static_cast<std::int8_t>(i + 1);
+      for (int j = i + 1; j < k; ++j) {
+        const double c = std::max({cost[i][j][k], best[i][j], best[j][k]});
+        if (c < best[i][k]) {
+          best[i][k] = c;
+          middle_[i][k] = static_cast<std::int8_t>(j);
+        }
+      }
+    }
+  plan.worst = best[0][n - 1];
+  return plan.worst < bound;
+}
+
+void Flipper::add_triangles(const Ring& ring, int i, int k, Plan& plan) const {
+  if (k - i < 2) return;
+  const int j = middle_[i][k];
+  const Index ri = ring.corner[i], rj = ring.corner[j], rk = ring.corner[k];
+  plan.after[plan.after_count++] = {ri, rj, rk, ring.b};
+  plan.after[plan.after_count++] = {ri, rk, rj, ring.a};
+  add_triangles(ring, i, j, plan);
+  add_triangles(ring, j, k, plan);
+}
+
+void Flipper::plan_edge_removal(Index tet, int ia, int ib, Plan& best) {
+  Ring ring;
+  if (!find_ring(tet, ia, ib, ring)) return;
+  double worst = 0;
+  for (int i = 0; i < ring.count; ++i) worst = std::max(worst, mesh_.bad(ring.tet[i]));
+  Plan plan;
+  if (!triangulate(ring, std::min(best.worst, worst - kGain), plan)) return;
+  add_triangles(ring, 0, ring.count - 1, plan);
+  plan.before_count = ring.count;
+  std::copy_n(ring.tet.begin(), ring.count, plan.before.begin());
+  if (is_allowed(plan)) best = plan;
+}
+
+void Flipper::plan_face_removal(Index tet, int face, Plan& best) const {
+  if (mesh_.marked(tet, face)) return;
+  const Index n = mesh_.neighbour(tet, face);
+  const Index a = mesh_.tet(tet)[face], b = mesh_.tet(n / 4)[n % 4];
+  const double bound = std::min(best.worst, std::max(mesh_.bad(tet), mesh_.bad(n / 4)) - kGain);
+  Plan plan;
+  plan.worst = 0;
+  for (int i = 0; i < 3 && plan.worst < bound; ++i) {
+    const Index p = mesh_.tet(tet)[EditMesh::kFace[face][i]],
+                q = mesh_.tet(tet)[EditMesh::kFace[face][(i + 1) % 3]];
+    plan.after[plan.after_count++] = {p, q, b, a};
+    plan.worst = std::max(plan.worst, mesh_.compute_bad({p, q, b, a}));
+  }
+  if (plan.worst >= bound) return;
+  plan.before_count = 2;
+  plan.before[0] = tet;
+  plan.before[1] = n / 4;
+  if (is_allowed(plan)) best = plan;
+}
+
+bool Flipper::is_allowed(const Plan& plan) const {
+  AngleCosines before, after;
+  for (int i = 0; i < plan.before_count; ++i) before.include(mesh_.cosines(mesh_.tet(plan.before[i])));
+  for (int i = 0; i < plan.after_count; ++i) after.include(mesh_.cosines(plan.after[i]));
+  if (!is_better(before, after)) return false;
+  const auto was_there = [&](const Triangle& f) {
+    for (int i = 0; i < plan.before_count; ++i) {
+      const Tet& t = mesh_.tet(plan.before[i]);
+      int shared = 0;
+      for (Index v : t) shared += v == f[0] || v == f[1] || v == f[2];
+      if (shared == 3) return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < plan.after_count; ++i)
+    for (const auto& f : EditMesh::kFace) {
+      const Triangle corners{plan.after[i][f[0]], plan.after[i][f[1]], plan.after[i][f[2]]};
+      if (mesh_.on_one_face(corners[0], corners[1], corners[2]) && !was_there(corners)) return false;
+    }
+  return true;
+}
+
+std::span<const Index> Flipper::improve(Index tet) {
+  Plan best;
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j) plan_edge_removal(tet, i, j, best);
+  for (int i = 0; i < 4; ++i) plan_face_removal(tet, i, best);
+  if (best.worst >= kInverted) return {};
+  return mesh_.replace({best.before.data(), static_cast<std::size_t>(best.before_count)},
+                       {best.after.data(), static_cast<std::size_t>(best.after_count)});
+}
+
+}  // namespace dm
