@@ -1,0 +1,216 @@
+"""Which solid lies on each side of each triangle of a closed surface, whatever its orientation.
+
+Idea: every triangle has two sides. Round each edge the sides that face each other bound the same region, so
+they are joined; the connected sets of sides are the shells of the regions. A shell that encloses a positive
+volume, seen from its own region, is the outer boundary of a region; a negative one is the boundary of a
+hole in the region that contains it (nesting). This treats cavities, several solids, and solids that share
+walls alike. (Regions of an arrangement: Zhou, Grinspun, Zorin, Jacobson 2016, "Mesh arrangements for solid
+geometry".) Cost: O(m log m), and O(m) per shell whose bounding box lies in that of another.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from .errors import MeshError
+
+FRONT, BACK = 0, 1  # side numbers: 2 * triangle + FRONT (where the right-hand normal points) or + BACK
+OVERLAP = 1e-9  # radians: triangles at one edge closer than this overlap
+FLAT = 1e-12  # volume relative to the cube of the diagonal
+
+
+class HalfEdges(NamedTuple):
+    """The 3m sides of m triangles, sorted so that those of one edge are neighbours.
+
+    ends (3m, 2): the points, the lower first; owner: the triangle; direction: +1 when it runs from the lower to
+    the higher point; third: its other corner; starts, sizes: where each edge's group starts, and its size.
+    """
+
+    ends: Any
+    owner: Any
+    direction: Any
+    third: Any
+    starts: Any
+    sizes: Any
+
+
+def half_edges(triangles):
+    """HalfEdges of triangles (m, 3) int64."""
+    a = triangles.T.reshape(-1)
+    b = triangles[:, [1, 2, 0]].T.reshape(-1)
+    third = triangles[:, [2, 0, 1]].T.reshape(-1)
+    owner = np.tile(np.arange(len(triangles)), 3)
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    key = low * (int(triangles.max(initial=0)) + 1) + high
+    order = np.argsort(key, kind="stable")
+    new = np.ones(len(key), bool)
+    new[1:] = np.diff(key[order]) != 0
+    starts = np.flatnonzero(new)
+    sizes = np.diff(np.append(starts, len(key)))
+    direction = np.where(a < b, 1, -1)[order]
+    return HalfEdges(
+        np.stack([low, high], axis=1)[order], owner[order], direction, third[order], starts, sizes
+    )
+
+
+def connected(a, b, count):
+    """How many groups `count` items fall into when a[k] and b[k] are linked, and the group of each."""
+    links = coo_matrix((np.ones(len(a), bool), (a, b)), shape=(count, count))
+    return connected_components(links, directed=False)
+
+
+def find_cells(points, triangles, holes=None, nested="cavity"):
+    """(m, 2) int: the solid in front of and behind each triangle, 1-based, 0 = outside or a cavity.
+
+    Raises MeshError (open_edge, overlap, zero_volume) with the place.
+    """
+    sides = half_edges(triangles)
+    shell = _shells(points, triangles, sides)
+    component = _components(triangles, sides)
+    volumes = _shell_volumes(points, triangles, shell)
+    limit = FLAT * float(np.linalg.norm(np.ptp(points[np.unique(triangles)], axis=0))) ** 3
+    for flat in np.flatnonzero(np.abs(volumes) <= limit):
+        place = points[triangles[np.flatnonzero(shell == flat)[0] // 2]].mean(axis=0)
+        raise MeshError("plc", "zero_volume", "a part of the surface encloses no volume", place)
+    region_of, parent, depth = _nesting(points, triangles, shell, component, volumes)
+    solid_of = _number_solids(points, triangles, shell, volumes, region_of, depth, holes, nested)
+    return solid_of[region_of[shell]].reshape(-1, 2)
+
+
+def _shells(points, triangles, sides):
+    """(2m,) number of the shell that each side belongs to."""
+    edges, owner, direction, third, starts, sizes = sides
+    if (sizes == 1).any():
+        place = points[edges[starts[np.flatnonzero(sizes == 1)[0]]]].mean(axis=0)
+        count = int((sizes == 1).sum())
+        raise MeshError("plc", "open_edge", "the surface is not closed: %d open edges, one" % count, place)
+    angle = _angles(points, edges, third, starts, sizes)
+    group = np.repeat(np.arange(len(starts)), sizes)
+    order = np.lexsort((angle, group))
+    owner, direction = owner[order], direction[order]
+    following = np.arange(len(owner)) + 1
+    following[starts + sizes - 1] = starts
+    # A triangle that runs along the edge upwards turns its front to growing angles.
+    ahead = 2 * owner + np.where(direction > 0, FRONT, BACK)
+    behind = 2 * owner + np.where(direction > 0, BACK, FRONT)
+    return connected(ahead, behind[following], 2 * len(triangles))[1]
+
+
+def _angles(points, edges, third, starts, sizes):
+    """Angle of each triangle round its edge; 0 where only two meet, as their order does not matter."""
+    angle = np.zeros(len(edges))
+    many = np.repeat(sizes > 2, sizes)
+    if not many.any():
+        return angle
+    first = third[np.repeat(starts, sizes)][many]
+    origin = points[edges[many, 0]]
+    axis = points[edges[many, 1]] - origin
+    axis /= np.linalg.norm(axis, axis=1)[:, None]
+    x = points[first] - origin
+    x -= np.einsum("ij,ij->i", x, axis)[:, None] * axis
+    y = np.cross(axis, x)
+    v = points[third[many]] - origin
+    angle[many] = np.arctan2(np.einsum("ij,ij->i", y, v), np.einsum("ij,ij->i", x, v)) % (2 * np.pi)
+    # Rounding may leave the first one just under a full turn.
+    angle[many] = np.where(angle[many] > 2 * np.pi - OVERLAP, 0, angle[many])
+    _refuse_overlap(points, edges, angle, starts, sizes)
+    return angle
+
+
+def _refuse_overlap(points, edges, angle, starts, sizes):
+    group = np.repeat(np.arange(len(starts)), sizes)
+    order = np.lexsort((angle, group))
+    close = (np.diff(angle[order]) < OVERLAP) & (np.diff(group[order]) == 0) & (sizes[group[order][1:]] > 2)
+    if close.any():
+        place = points[edges[order[np.flatnonzero(close)[0]]]].mean(axis=0)
+        raise MeshError("plc", "overlap", "triangles of the surface overlap at an edge", place)
+
+
+def _components(triangles, sides):
+    """(m,) number of the piece of surface, connected across edges, that each triangle belongs to."""
+    first = np.repeat(sides.owner[sides.starts], sides.sizes)
+    return connected(first, sides.owner, len(triangles))[1]
+
+
+def _shell_volumes(points, triangles, shell):
+    """Signed volume that each shell encloses, seen from the region it bounds."""
+    from .plc import signed_volumes
+
+    volumes = signed_volumes(points, triangles)
+    return np.bincount(shell, np.stack([-volumes, volumes], axis=1).reshape(-1))
+
+
+def _nesting(points, triangles, shell, component, volumes):
+    """Region of each shell (0 = outside), and of each region the one round it and its depth (outside 0)."""
+    outer = np.flatnonzero(volumes > 0)
+    region_of = np.zeros(len(volumes), np.int64)
+    region_of[outer] = 1 + np.arange(len(outer))
+    first_side = np.full(len(volumes), -1)
+    first_side[shell[::-1]] = np.arange(len(shell))[::-1]
+    component_of = component[first_side // 2]
+    holes = np.flatnonzero(volumes < 0)
+    region_of[holes] = [
+        _containing(points, triangles, shell, volumes, outer, component_of, hole, region_of) for hole in holes
+    ]
+    outside_of = np.zeros(component_of.max() + 1, np.int64)  # region round each piece of surface
+    outside_of[component_of[holes]] = region_of[holes]
+    parent = np.zeros(len(outer) + 1, np.int64)
+    parent[1:] = outside_of[component_of[outer]]
+    depth = np.zeros(len(outer) + 1, np.int64)
+    for region in range(1, len(parent)):
+        up = region
+        while up != 0:
+            depth[region] += 1
+            up = parent[up]
+    return region_of, parent, depth
+
+
+def _containing(points, triangles, shell, volumes, outer, component_of, hole, region_of):
+    """The smallest region whose outer shell contains the shell `hole`."""
+    mine = triangles[np.flatnonzero(shell == hole) // 2]
+    area = np.linalg.norm(
+        np.cross(points[mine[:, 1]] - points[mine[:, 0]], points[mine[:, 2]] - points[mine[:, 0]]), axis=1
+    )
+    place = points[mine[int(np.argmax(area))]].mean(axis=0)
+    best, best_volume = 0, np.inf
+    for other in outer:
+        if component_of[other] == component_of[hole] or volumes[other] >= best_volume:
+            continue
+        if volumes[other] > -volumes[hole] and _winding(points, triangles, shell, other, place) > 0.5:
+            best, best_volume = region_of[other], volumes[other]
+    return best
+
+
+def _winding(points, triangles, shell, number, place):
+    """Winding number of a shell round a place off it (van Oosterom and Strackee 1983)."""
+    sides = np.flatnonzero(shell == number)
+    mine = triangles[sides // 2]
+    corners = points[mine]
+    if (place < corners.min(axis=(0, 1))).any() or (place > corners.max(axis=(0, 1))).any():
+        return 0.0
+    a, b, c = (corners[:, i] - place for i in range(3))
+    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+    above = np.einsum("ij,ij->i", a, np.cross(b, c))
+    below = (
+        la * lb * lc
+        + np.einsum("ij,ij->i", a, b) * lc
+        + np.einsum("ij,ij->i", b, c) * la
+        + np.einsum("ij,ij->i", c, a) * lb
+    )
+    sign = np.where(sides % 2 == BACK, 1.0, -1.0)
+    return float((sign * np.arctan2(above, below)).sum() / (2 * np.pi))
+
+
+def _number_solids(points, triangles, shell, volumes, region_of, depth, holes, nested):
+    """Solid number of each region, 0 for what stays empty."""
+    solid = depth % 2 == 1 if nested == "cavity" else depth > 0
+    outer = np.flatnonzero(volumes > 0)
+    for place in np.zeros((0, 3)) if holes is None else np.asarray(holes, np.float64).reshape(-1, 3):
+        inside = [k for k in outer if _winding(points, triangles, shell, k, place) > 0.5]
+        if inside:
+            solid[region_of[min(inside, key=lambda k: volumes[k])]] = False
+    if not solid.any():
+        raise MeshError("plc", "empty", "there is nothing to mesh: the surface encloses no solid")
+    return np.where(solid, np.cumsum(solid), 0)
