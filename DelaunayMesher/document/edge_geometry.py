@@ -1,0 +1,86 @@
+"""Exact geometry of CAD edges as records of numbers: line, circle, or a B-spline curve."""
+
+import numpy as np
+import Part
+
+from .face_geometry import parameters
+from .splines import curve_record, line_through
+
+POLYLINE, LINE, CIRCLE, SPLINE = range(4)
+PARAMETERS = 7  # origin (3), axis (3), a
+
+
+def edge_records(edges, wanted):
+    """Arrays (kind (E,), params (E, 7), spline (E,)), the list of spline dicts, and the edges without a curve.
+
+    wanted: (E,) bool; other edges (degenerate ones, seams that are dropped) stay polylines.
+    """
+    kinds = np.zeros(len(edges), dtype=np.int32)
+    params = np.zeros((len(edges), PARAMETERS))
+    spline = np.full(len(edges), -1, dtype=np.int32)
+    splines, doubtful = [], []
+    for number in np.flatnonzero(wanted):
+        kind, numbers, record = edge_record(edges[number])
+        kinds[number] = kind
+        if numbers is not None:
+            params[number] = numbers[:PARAMETERS]
+        if record is not None:
+            spline[number] = len(splines)
+            splines.append(record)
+        if kind == POLYLINE:
+            doubtful.append(int(number))
+    return kinds, params, spline, splines, doubtful
+
+
+def edge_record(edge):
+    """(kind, params or None, spline dict or None) of one edge; each is tried against points of the edge."""
+    first, last = edge.ParameterRange
+    scale = max(abs(edge.BoundBox.DiagonalLength), 1e-3)
+    samples = [edge.valueAt(first + share * (last - first)) for share in (0.0, 0.3, 0.7, 1.0)]
+    points = np.array([tuple(point) for point in samples])
+    try:
+        curve = edge.Curve
+    except (RuntimeError, TypeError, ValueError):  # a kind FreeCAD has no class for
+        curve = None
+    if isinstance(curve, (Part.Line, Part.LineSegment)):
+        return LINE, parameters(points[0], points[-1] - points[0]), None
+    if isinstance(curve, Part.Circle):
+        record = parameters(curve.Center, curve.Axis, curve.Radius)
+        if np.abs(circle_distances(record, points)).max() <= 1e-9 * scale:
+            return CIRCLE, record, None
+    for candidate, start, end in spline_candidates(edge, curve, first, last):
+        record = curve_record(candidate, start, end)
+        ends = [candidate.value(start), candidate.value(end)]
+        if (ends[0] - samples[0]).Length > 1e-6 * scale or (ends[1] - samples[-1]).Length > 1e-6 * scale:
+            continue
+        straight = line_through(record["poles"], 1e-10 * scale)
+        if straight is not None:
+            return LINE, parameters(*straight), None
+        return SPLINE, None, record
+    return POLYLINE, None, None
+
+
+def circle_distances(params, points):
+    """(n,) distance of points from a circle record."""
+    offset = points - params[:3]
+    height = offset @ params[3:6]
+    radius = np.linalg.norm(offset - height[:, None] * params[3:6], axis=1)
+    return np.hypot(radius - params[6], height)
+
+
+def spline_candidates(edge, curve, first, last):
+    """(B-spline curve, start, end) triples to try: as it is, then through toNurbs()."""
+    if isinstance(curve, Part.BSplineCurve):
+        yield curve, first, last
+    elif isinstance(curve, Part.BezierCurve):
+        yield curve.toBSpline(), first, last
+    try:
+        converted = edge.toNurbs().Edges[0]
+        curve = converted.Curve
+    except (RuntimeError, IndexError, TypeError, ValueError):  # no 3D curve, or OCC gives up
+        return
+    if isinstance(curve, Part.BezierCurve):
+        curve = curve.toBSpline()
+    if isinstance(curve, Part.BSplineCurve):
+        start, end = converted.ParameterRange
+        yield curve, start, end

@@ -1,0 +1,143 @@
+"""Exact geometry of CAD faces as records of numbers: plane, cylinder, cone, sphere, torus, or a B-spline.
+
+An analytic record is believed only when the face's own tessellation nodes lie on it; otherwise (a placement
+that the attributes do not reflect, an unknown kind) the face is converted to a B-spline.
+"""
+
+import itertools
+
+import numpy as np
+import Part
+
+from .splines import plane_through, surface_record
+
+FACETS, PLANE, CYLINDER, CONE, SPHERE, TORUS, SPLINE = range(7)
+PARAMETERS = 8  # origin (3), axis (3), a, b
+
+
+def face_records(faces, face_nodes, tolerances):
+    """Arrays (kind (F,), params (F, 8), spline (F,)), the list of spline dicts, and notes about doubtful faces.
+
+    face_nodes: per face an (n, 3) array of points on it.  tolerances: per face how far these may be off, as CAD
+    edges are only near the surface.
+    """
+    kinds = np.zeros(len(faces), dtype=np.int32)
+    params = np.zeros((len(faces), PARAMETERS))
+    spline = np.full(len(faces), -1, dtype=np.int32)
+    splines, doubtful = [], []
+    for number, (face, nodes, tolerance) in enumerate(zip(faces, face_nodes, tolerances)):
+        kind, numbers, record = face_record(face, nodes, tolerance)
+        kinds[number] = kind
+        if numbers is not None:
+            params[number] = numbers
+        if record is not None:
+            spline[number] = len(splines)
+            splines.append(record)
+        if kind == FACETS:
+            doubtful.append(number)
+    return kinds, params, spline, splines, doubtful
+
+
+def face_record(face, nodes, tolerance):
+    """(kind, params or None, spline dict or None) of one face."""
+    try:
+        surface = face.Surface
+    except (RuntimeError, TypeError, ValueError):  # a kind FreeCAD has no class for
+        surface = None
+    analytic = analytic_record(surface, nodes)
+    if analytic and np.abs(distances(*analytic, nodes)).max(initial=0.0) <= tolerance:
+        return analytic[0], analytic[1], None
+    for candidate, ranges in spline_candidates(face, surface):
+        if spline_fits(candidate, nodes, tolerance):
+            record = surface_record(candidate, ranges)
+            flat = plane_through(record["poles"], 1e-9 * max(np.abs(np.ptp(nodes, axis=0)).max(initial=0.0), 1e-3))
+            if flat is not None:
+                return PLANE, parameters(*flat), None
+            return SPLINE, None, record
+    return FACETS, None, None
+
+
+def parameters(origin, axis, a=0.0, b=0.0):
+    """The eight numbers of a record; the axis is made a unit vector."""
+    axis = np.asarray(tuple(axis), dtype=np.float64)
+    return np.concatenate([tuple(origin), axis / np.linalg.norm(axis), [a, b]])
+
+
+def analytic_record(surface, nodes):
+    """(kind, params) of an analytic surface, or None."""
+    if isinstance(surface, Part.Plane):
+        return PLANE, parameters(surface.Position, surface.Axis)
+    if isinstance(surface, Part.Cylinder):
+        return CYLINDER, parameters(surface.Center, surface.Axis, surface.Radius)
+    if isinstance(surface, Part.Sphere):
+        return SPHERE, parameters(surface.Center, (0.0, 0.0, 1.0), surface.Radius)
+    if isinstance(surface, Part.Toroid):
+        return TORUS, parameters(surface.Center, surface.Axis, surface.MajorRadius, surface.MinorRadius)
+    if isinstance(surface, Part.Cone):
+        record = parameters(surface.Apex, surface.Axis, abs(surface.SemiAngle))
+        if len(nodes) and ((nodes - record[:3]) @ record[3:6]).mean() < 0:
+            record[3:6] *= -1.0  # towards the nappe that the face lies on
+        return CONE, record
+    return None
+
+
+def distances(kind, params, points):
+    """(n,) distance (mm, unsigned or signed by the kind's habit) of points from an analytic surface."""
+    origin, axis, a, b = params[:3], params[3:6], params[6], params[7]
+    offset = points - origin
+    if kind == SPHERE:
+        return np.linalg.norm(offset, axis=1) - a
+    height = offset @ axis
+    if kind == PLANE:
+        return height
+    radius = np.linalg.norm(offset - height[:, None] * axis, axis=1)
+    if kind == CYLINDER:
+        return radius - a
+    if kind == CONE:
+        return radius * np.cos(a) - np.abs(height) * np.sin(a)
+    near = np.hypot(radius - a, height) - b
+    far = np.hypot(radius + a, height) - b  # the sheet beyond the axis of a spindle torus
+    return np.where(np.abs(near) < np.abs(far), near, far)
+
+
+def spline_candidates(face, surface):
+    """(B-spline surface, range) pairs to try, best first: as it is, then through toNurbs()."""
+    if isinstance(surface, Part.BSplineSurface):
+        yield surface, face.ParameterRange
+    elif isinstance(surface, Part.BezierSurface):
+        yield surface.toBSpline(), face.ParameterRange
+    try:
+        converted = face.toNurbs().Faces[0]
+        surface = converted.Surface
+    except (RuntimeError, IndexError, TypeError, ValueError):  # OCC gives up on this face
+        return
+    if isinstance(surface, Part.BezierSurface):
+        surface = surface.toBSpline()
+    if isinstance(surface, Part.BSplineSurface):
+        yield surface, converted.ParameterRange
+
+
+def spline_fits(surface, nodes, tolerance, samples=5):
+    """Whether a few nodes lie on the surface (a global projection is slow: 0.5 ms each)."""
+    step = max(1, len(nodes) // samples)
+    for point in nodes[::step][:samples]:
+        point = Part.Vertex(*point).Point
+        if (surface.value(*surface.parameter(point)) - point).Length > tolerance:
+            return False
+    return True
+
+
+def seam_is_smooth(edge, face, kind):
+    """Whether the surface passes through its seam without a kink (analytic surfaces always do)."""
+    if kind in (CYLINDER, CONE, SPHERE, TORUS):
+        return True
+    u0, u1, v0, v1 = face.ParameterRange
+    first, last = edge.ParameterRange
+    for share in (0.1, 0.5, 0.9):
+        u, v = face.Surface.parameter(edge.valueAt(first + share * (last - first)))
+        across_u = min(abs(u - u0), abs(u - u1)) / (u1 - u0) < min(abs(v - v0), abs(v - v1)) / (v1 - v0)
+        ends = ((u0, v), (u1, v)) if across_u else ((u, v0), (u, v1))
+        normals = list(itertools.starmap(face.normalAt, ends))
+        if normals[0].dot(normals[1]) < np.cos(np.radians(2.0)):
+            return False
+    return True

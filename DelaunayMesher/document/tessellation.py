@@ -1,0 +1,173 @@
+"""A CAD shape's tessellation as numpy arrays: triangles per face, polylines per edge, sides per solid.
+
+OCC meshes every edge once and every face against its edges, so the nodes of two faces agree along a shared
+edge to about 1e-12 mm; they are merged with a tolerance here.  Faces and edges are recognised by their TShape
+and location (hashCode + isSame), never by position.  Indices are 0-based positions in shape.Faces / Edges /
+Vertexes / Solids; FreeCAD's names are one higher.
+"""
+
+import itertools
+from dataclasses import dataclass, field
+
+import MeshPart
+import numpy as np
+
+from .merge_points import merge_points
+
+INTERIOR = ("Internal", "External")
+
+
+def vectors_to_array(vectors):
+    """(n, 3) float64 from FreeCAD vectors."""
+    flat = np.fromiter(itertools.chain.from_iterable(vectors), dtype=np.float64, count=3 * len(vectors))
+    return flat.reshape(-1, 3)
+
+
+class ShapeIndex:
+    """Position of a face or an edge in a list of shapes, whatever its orientation."""
+
+    def __init__(self, shapes):
+        self.shapes = shapes
+        self.by_hash = {}
+        for position, shape in enumerate(shapes):
+            self.by_hash.setdefault(shape.hashCode(), []).append(position)
+
+    def find(self, shape):
+        """0-based position, or -1."""
+        for position in self.by_hash.get(shape.hashCode(), ()):
+            if self.shapes[position].isSame(shape):
+                return position
+        return -1
+
+
+@dataclass
+class Tessellation:
+    """Raw triangles and polylines of a shape, nodes merged.  `faces`, `edges` keep the CAD objects (a copy)."""
+
+    shape: object
+    faces: list
+    edges: list
+    points: np.ndarray  # (n, 3)
+    triangles: np.ndarray  # (m, 3) int64, right-hand normal = normal of the oriented face
+    triangle_face: np.ndarray  # (m,)
+    segments: np.ndarray  # (k, 2)
+    segment_edge: np.ndarray  # (k,)
+    vertex_point: np.ndarray  # (V,) point of each CAD vertex
+    face_edges: list  # per face the indices of its edges
+    edge_faces: list  # per edge the indices of its faces
+    seam_faces: dict  # edge -> face of which it is the seam
+    collapsed: int = 0
+    face_nodes: list = field(default_factory=list)  # per face the unmerged nodes, for checks of its geometry
+
+
+def tessellate(shape, linear, angular):
+    """Tessellation of a copy of `shape` with the given linear (mm) and angular (rad) deflection."""
+    shape = shape.copy()  # the displayed shape keeps its own triangulation
+    MeshPart.meshFromShape(Shape=shape, LinearDeflection=linear, AngularDeflection=angular, Relative=False)
+    faces, edges, vertices = shape.Faces, shape.Edges, shape.Vertexes
+    facets = [face.getFacesFromSubElement("Face", 1) for face in faces]
+    lines, face_edges, edge_faces, seam_faces = edge_lines(faces, edges)
+
+    blocks = [vectors_to_array([vertex.Point for vertex in vertices])]
+    blocks += [vectors_to_array(line) for line in lines]
+    face_nodes = [vectors_to_array(nodes) for nodes, _ in facets]
+    blocks += face_nodes
+    points = np.concatenate(blocks)
+    starts = np.concatenate([[0], np.cumsum([len(block) for block in blocks])])
+    tolerance = max(1e-7, 1e-9 * shape.BoundBox.DiagonalLength)
+    root = merge_points(points, tolerance)
+    used, compact = np.unique(root, return_inverse=True)
+    compact = compact.reshape(-1)
+
+    segments, segment_edge = gather_segments(lines, starts[1 : 1 + len(lines)], compact)
+    offsets = starts[1 + len(lines) : -1]
+    triangles, triangle_face, collapsed = gather_triangles(facets, offsets, compact)
+    return Tessellation(
+        shape=shape,
+        faces=faces,
+        edges=edges,
+        points=points[used],
+        triangles=triangles,
+        triangle_face=triangle_face,
+        segments=segments,
+        segment_edge=segment_edge,
+        vertex_point=compact[: len(vertices)],
+        face_edges=face_edges,
+        edge_faces=edge_faces,
+        seam_faces=seam_faces,
+        collapsed=collapsed,
+        face_nodes=face_nodes,
+    )
+
+
+def edge_lines(faces, edges):
+    """Per edge the ordered nodes of its polygon (asked of a face it bounds: that is far cheaper than of the
+    whole shape); per face its edges; per edge its faces; the seams."""
+    index = ShapeIndex(edges)
+    lines = [[] for _ in edges]
+    edge_faces = [[] for _ in edges]
+    face_edges, seam_faces = [], {}
+    for face_number, face in enumerate(faces):
+        mine = []
+        for position, edge in enumerate(face.Edges):
+            number = index.find(edge)
+            mine.append(number)
+            edge_faces[number].append(face_number)
+            if edges[number].Degenerated:
+                continue
+            if edge.isSeam(face):
+                seam_faces[number] = face_number
+            if not lines[number]:
+                lines[number] = face.getLinesFromSubElement("Edge", position + 1)[0]
+        face_edges.append(mine)
+    return lines, face_edges, edge_faces, seam_faces
+
+
+def gather_segments(lines, starts, compact):
+    """Segments (k, 2) and the edge of each, from polylines stored one after the other; no zero-length ones."""
+    pairs, owners = [], []
+    for number, (line, start) in enumerate(zip(lines, starts)):
+        if len(line) > 1:
+            nodes = compact[start : start + len(line)]
+            pairs.append(np.stack([nodes[:-1], nodes[1:]], axis=1))
+            owners.append(np.full(len(line) - 1, number))
+    if not pairs:
+        return np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=np.int64)
+    segments, owner = np.concatenate(pairs), np.concatenate(owners)
+    real = segments[:, 0] != segments[:, 1]
+    return segments[real], owner[real]
+
+
+def gather_triangles(facets, offsets, compact):
+    """Triangles (m, 3), the face of each, and how many collapsed because nodes merged (dropped)."""
+    blocks, owners = [], []
+    for number, ((_, corners), offset) in enumerate(zip(facets, offsets)):
+        if corners:
+            flat = np.fromiter(itertools.chain.from_iterable(corners), dtype=np.int64, count=3 * len(corners))
+            blocks.append(flat.reshape(-1, 3) + offset)
+            owners.append(np.full(len(corners), number))
+    if not blocks:
+        return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64), 0
+    triangles, owner = compact[np.concatenate(blocks)], np.concatenate(owners)
+    real = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+    return triangles[real], owner[real], int(len(real) - real.sum())
+
+
+def face_sides(faces, solids):
+    """(F, 2) int64 {solid behind, solid in front} of each face's normal; 1-based, 0 = outside.
+
+    A face that a solid lists as interior, or twice with both orientations, has that solid on both sides.
+    """
+    index = ShapeIndex(faces)
+    sides = np.zeros((len(faces), 2), dtype=np.int64)
+    for number, solid in enumerate(solids, 1):
+        for shell in solid.SubShapes:
+            for face in shell.SubShapes if shell.ShapeType == "Shell" else ():
+                position = index.find(face)
+                if position < 0:
+                    continue
+                if face.Orientation in INTERIOR:
+                    sides[position] = number
+                else:
+                    sides[position, int(face.Orientation != faces[position].Orientation)] = number
+    return sides
