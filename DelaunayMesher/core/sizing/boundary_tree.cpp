@@ -1,0 +1,114 @@
+#include "sizing/boundary_tree.h"
+
+#include "sizing/source_tree.h"
+
+namespace dm {
+
+namespace {
+
+std::vector<Box> triangle_boxes(const Plc& plc) {
+  std::vector<Box> boxes(plc.triangles.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (const Index v : plc.triangles[i]) boxes[i].add(plc.points[v]);
+  return boxes;
+}
+
+// Distance along a ray at which it enters the box, infinity if it misses.
+double entry(const Box& box, const Vec3& origin, const Vec3& inverse) {
+  double from = 0, to = HUGE_VAL;
+  for (int i = 0; i < 3; ++i) {
+    const double a = (box.low[i] - origin[i]) * inverse[i], b = (box.high[i] - origin[i]) * inverse[i];
+    // A ray within the plane of a side gives 0 * infinity = NaN, which min and max in this order ignore.
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return from <= to ? from : HUGE_VAL;
+}
+
+}  // namespace
+
+BoundaryTree::BoundaryTree(const Plc& plc) : plc_(plc), tree_(triangle_boxes(plc)) {}
+
+RayHit BoundaryTree::first_hit(const Vec3& origin, const Vec3& direction, double from, double to,
+                               Index skip) const {
+  const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
+  RayHit hit;
+  hit.distance = to;
+  struct Entry {
+    Index node;
+    double entry;
+  } stack[128];
+  int top = 0;
+  stack[top++] = {0, 0.0};
+  // Moeller and Trumbore (1997); the tolerance closes the cracks between neighbouring triangles.
+  constexpr double kEdge = 1e-10;
+  const auto ask = [&](Index t) {
+    if (t == skip) return;
+    const Triangle& v = plc_.triangles[t];
+    const Vec3 a = plc_.points[v[0]], e1 = plc_.points[v[1]] - a, e2 = plc_.points[v[2]] - a;
+    const Vec3 q = cross(direction, e2);
+    const double det = dot(e1, q);
+    if (det == 0) return;
+    const Vec3 s = origin - a, r = cross(s, e1);
+    const double u = dot(s, q) / det, w = dot(direction, r) / det, distance = dot(e2, r) / det;
+    if (u < -kEdge || w < -kEdge || u + w > 1 + kEdge || distance <= from) return;
+    if (distance < hit.distance || (distance == hit.distance && t < hit.triangle))
+      hit = {distance, t, -det / norm(cross(e1, e2))};
+  };
+  while (top > 0) {
+    const Entry next = stack[--top];
+    if (next.entry > hit.distance) continue;
+    const BoxTree::Node& node = tree_.nodes()[next.node];
+    for (Index k = 0; k < node.count; ++k) ask(tree_.order()[node.first + k]);
+    if (node.count > 0) continue;
+    Entry near{node.first, entry(tree_.nodes()[node.first].box, origin, inverse)};
+    Entry far{node.first + 1, entry(tree_.nodes()[node.first + 1].box, origin, inverse)};
+    if (far.entry < near.entry) std::swap(near, far);
+    if (far.entry < HUGE_VAL) stack[top++] = far;
+    if (near.entry < HUGE_VAL) stack[top++] = near;
+  }
+  return hit;
+}
+
+Index BoundaryTree::solid_along(const Vec3& p, const Vec3& direction) const {
+  const RayHit hit = first_hit(p, direction, 0, HUGE_VAL);
+  if (hit.triangle < 0) return 0;
+  return plc_.face_solids[plc_.triangle_face[hit.triangle]][hit.cosine > 0 ? 0 : 1];
+}
+
+Index BoundaryTree::solid_at(const Vec3& p) const {
+  // Skew directions: real parts have few triangles along them.
+  static constexpr Vec3 kDirections[3] = {
+      {0.8017, 0.2673, 0.5345}, {-0.3254, 0.7231, -0.6093}, {0.1741, -0.8123, -0.5566}};
+  if (!box().overlaps(Box{p, p})) return 0;
+  const Index first = solid_along(p, kDirections[0]);
+  const Index second = solid_along(p, kDirections[1]);
+  return first == second ? first : solid_along(p, kDirections[2]);
+}
+
+bool BoundaryTree::touches(const Box& query) const {
+  Index stack[128], top = 0;
+  stack[top++] = 0;
+  const Vec3 centre = query.centre();
+  const double radius2 = 0.25 * norm2(query.extent());
+  while (top > 0) {
+    const BoxTree::Node& node = tree_.nodes()[stack[--top]];
+    if (!node.box.overlaps(query)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = node.first + 1;
+      continue;
+    }
+    for (Index k = 0; k < node.count; ++k) {
+      const Triangle& t = plc_.triangles[tree_.order()[node.first + k]];
+      Box box;
+      for (const Index v : t) box.add(plc_.points[v]);
+      if (!box.overlaps(query)) continue;
+      const Vec3 near = nearest_on_triangle(centre, plc_.points[t[0]], plc_.points[t[1]], plc_.points[t[2]]);
+      if (norm2(near - centre) <= radius2) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace dm

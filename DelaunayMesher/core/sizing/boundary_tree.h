@@ -1,0 +1,35 @@
+// The PLC's triangles in a box tree: what a ray hits first, which solid a point is in, whether a box is
+// touched.  Used to measure walls and gaps, and to know which part of space will be meshed.
+#pragma once
+
+#include "plc/plc.h"
+#include "sizing/box_tree.h"
+
+namespace dm {
+
+struct RayHit {
+  double distance = HUGE_VAL;  // mm along the unit direction
+  Index triangle = -1;
+  double cosine = 0;  // between the ray and the triangle's unit normal
+};
+
+class BoundaryTree {
+ public:
+  explicit BoundaryTree(const Plc& plc);
+
+  // First triangle hit at a distance in (from, to), triangle `skip` left out.
+  RayHit first_hit(const Vec3& origin, const Vec3& direction, double from, double to, Index skip = -1) const;
+  // Solid (1-based) that p lies in, 0 = outside: by the side of the first triangle that rays from p hit, the
+  // majority of three rays at most.  Not exact for points on the boundary.
+  Index solid_at(const Vec3& p) const;
+  // Conservative: true whenever a triangle touches the box.
+  bool touches(const Box& box) const;
+  const Box& box() const { return tree_.nodes()[0].box; }  // of the whole PLC
+
+ private:
+  Index solid_along(const Vec3& p, const Vec3& direction) const;
+  const Plc& plc_;
+  BoxTree tree_;
+};
+
+}  // namespace dm

@@ -1,0 +1,28 @@
+// Where the size field comes from: sizes given on CAD elements and points, and curvature.
+#pragma once
+
+#include "sizing/size_field.h"
+#include "sizing/source_tree.h"
+
+namespace dm {
+
+// What a size found by the mesher itself (not given by the user) may not go below, in mm.
+struct SizeLimits {
+  double floor = 0;      // min_size of the options; sizes that the user gives are raised to it as well
+  double curvature = 0;  // finest size for curvature
+  double proximity = 0;  // finest size for walls and gaps
+};
+SizeLimits size_limits(const SizeOptions& options);
+
+// Throws Failure("sizing", ...) for sizes, growth and counts that are not positive numbers.
+void check_options(const SizeOptions& options);
+
+// Sizes of faces, edges, vertices, solids (their boundary faces) and size points.
+void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<SizeSource>& sources);
+
+// 2 pi r / elements_per_circle on curved faces and edges, r from the CAD's curvature, or from the angles
+// between the triangles of a smooth face that is known by its facets only.
+void add_curvature(const Plc& plc, const Geometry& geometry, const SizeOptions& options,
+                   const SizeLimits& limits, Context& context, std::vector<SizeSource>& sources);
+
+}  // namespace dm
