@@ -13,12 +13,21 @@
 
 namespace dm {
 
-enum class SurfaceKind : Index { facets = 0, plane = 1, cylinder = 2, cone = 3, sphere = 4, torus = 5, spline = 6 };
+enum class SurfaceKind : Index {
+  facets = 0,
+  plane = 1,
+  cylinder = 2,
+  cone = 3,
+  sphere = 4,
+  torus = 5,
+  spline = 6
+};
 enum class CurveKind : Index { polyline = 0, line = 1, circle = 2, spline = 3 };
 
 // plane: origin, axis = normal | cylinder: a = radius | cone: origin = apex, a = half angle (radians, > 0),
-// axis towards the opening nappe used; both nappes are projected on | sphere: a = radius |
-// torus: a = major, b = minor radius (minor > major: spindle, nearer sheet) | facets: the PLC's own triangles.
+// axis towards either nappe | sphere: a = radius | torus: a = major, b = minor radius (minor > major:
+// spindle) | facets: the PLC's own triangles.  Of a cone's two nappes and a spindle torus's two sheets only
+// those that the face has triangles on are projected on.
 struct SurfaceRecord {
   SurfaceKind kind = SurfaceKind::facets;
   Vec3 origin, axis;
@@ -35,7 +44,7 @@ struct CurveRecord {
 // Non-periodic, clamped or not; flat knots (with multiplicities); weights empty = polynomial.
 struct SplineSurfaceRecord {
   int degree_u = 1, degree_v = 1;
-  Index nu = 0, nv = 0;            // poles; pole (i, j) at i * nv + j
+  Index nu = 0, nv = 0;  // poles; pole (i, j) at i * nv + j
   std::vector<Vec3> poles;
   std::vector<double> weights, knots_u, knots_v;
   double u0 = 0, u1 = 1, v0 = 0, v1 = 1;  // parameter range of the face
@@ -68,7 +77,7 @@ class Geometry {
   Vec3 project_to_edge(Index edge, const Vec3& p) const;
   // Nearest point of the CAD element p belongs to: dimension 1 edge, 2 face; others return p.
   Vec3 project(Entity entity, const Vec3& p) const {
-    return entity.dimension == 2 ? project_to_face(entity.index, p)
+    return entity.dimension == 2   ? project_to_face(entity.index, p)
            : entity.dimension == 1 ? project_to_edge(entity.index, p)
                                    : p;
   }

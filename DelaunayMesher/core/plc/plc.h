@@ -19,13 +19,17 @@ struct Plc {
   std::vector<Index> segment_edge;   // CAD edge of each segment
   std::vector<Index> corners;        // points that are CAD vertices
   std::vector<Index> corner_vertex;  // CAD vertex of each
-  // Per CAD face the solids {behind, in front of} its triangles' right-hand normal; 0 = outside, else 1-based.
+  // Per CAD face the solids {behind, in front of} its triangles' right-hand normal; 0 = outside, 1-based.
   std::vector<std::array<Index, 2>> face_solids;
   Index edge_count = 0, vertex_count = 0, solid_count = 0;
 };
 
-// Throws Failure("plc", ...) naming face and place at the first defect: open edge, inconsistent orientation,
-// index out of range, repeated point, NaN, zero-area solid.
+// Throws Failure("plc", code, ...) naming face and place at the first defect.  Codes: bad_arrays, empty,
+// bad_index, collapsed_triangle, not_a_number, repeated_point, not_a_solid, free_face, coincident_faces,
+// loose_segment, loose_corner, open, orientation, empty_solid, no_volume, inside_out.
+// Legal: faces shared by two solids, edges with any number of faces, sheets inside a solid (both sides the
+// same solid), points that nothing uses, zero-area triangles.  Not looked for: self-intersection, which is
+// for the finished boundary to show.  O(n log n).
 void check_plc(const Plc& plc);
 
 }  // namespace dm

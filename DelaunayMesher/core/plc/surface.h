@@ -1,0 +1,27 @@
+// What every kind of CAD face and CAD edge can do; Geometry holds one of these per face and edge.
+#pragma once
+
+#include "base/vec3.h"
+
+namespace dm {
+
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  virtual Vec3 project(const Vec3& p) const = 0;
+  // Unit normal at the projection of p; its side is the surface's own, constant on each sheet.
+  virtual Vec3 normal(const Vec3& p) const = 0;
+  // Largest absolute principal curvature at the projection of p.
+  virtual double curvature(const Vec3& p) const = 0;
+  // 0 or 1: the nappe of a cone or the sheet of a spindle torus that p is projected on.
+  virtual int sheet(const Vec3&) const { return 0; }
+};
+
+class Curve {
+ public:
+  virtual ~Curve() = default;
+  virtual Vec3 project(const Vec3& p) const = 0;
+  virtual double curvature(const Vec3& p) const = 0;
+};
+
+}  // namespace dm
