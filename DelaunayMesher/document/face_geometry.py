@@ -1,11 +1,13 @@
 """Exact geometry of CAD faces as records of numbers: plane, cylinder, cone, sphere, torus, or a B-spline.
 
-An analytic record is believed only when the face's own tessellation nodes lie on it; otherwise (a placement
-that the attributes do not reflect, an unknown kind) the face is converted to a B-spline.
+An analytic record is believed only when most of the face's own tessellation nodes lie on it (those on its edges may
+be off by as much as the CAD file is); otherwise (a placement that the attributes do not reflect, an unknown kind)
+the face is converted to a B-spline.
 """
 
 import itertools
 
+import FreeCAD
 import numpy as np
 import Part
 
@@ -45,10 +47,11 @@ def face_record(face, nodes, tolerance):
     except (RuntimeError, TypeError, ValueError):  # a kind FreeCAD has no class for
         surface = None
     analytic = analytic_record(surface, nodes)
-    if analytic and np.abs(distances(*analytic, nodes)).max(initial=0.0) <= tolerance:
+    if analytic and len(nodes) and np.median(np.abs(distances(*analytic, nodes))) <= tolerance:
         return analytic[0], analytic[1], None
-    for candidate, ranges in spline_candidates(face, surface):
-        if spline_fits(candidate, nodes, tolerance):
+    for candidate, ranges, same_parameters in spline_candidates(face, surface):
+        fits = agrees(candidate, face) if same_parameters else passes_through(candidate, nodes, tolerance)
+        if fits:
             record = surface_record(candidate, ranges)
             flat = plane_through(record["poles"], 1e-9 * max(np.abs(np.ptp(nodes, axis=0)).max(initial=0.0), 1e-3))
             if flat is not None:
@@ -101,11 +104,11 @@ def distances(kind, params, points):
 
 
 def spline_candidates(face, surface):
-    """(B-spline surface, range) pairs to try, best first: as it is, then through toNurbs()."""
+    """(B-spline surface, range, whether its parameters are the face's) to try: as it is, then by toNurbs()."""
     if isinstance(surface, Part.BSplineSurface):
-        yield surface, face.ParameterRange
+        yield surface, face.ParameterRange, True
     elif isinstance(surface, Part.BezierSurface):
-        yield surface.toBSpline(), face.ParameterRange
+        yield surface.toBSpline(), face.ParameterRange, True
     try:
         converted = face.toNurbs().Faces[0]
         surface = converted.Surface
@@ -114,17 +117,28 @@ def spline_candidates(face, surface):
     if isinstance(surface, Part.BezierSurface):
         surface = surface.toBSpline()
     if isinstance(surface, Part.BSplineSurface):
-        yield surface, converted.ParameterRange
+        yield surface, converted.ParameterRange, False
 
 
-def spline_fits(surface, nodes, tolerance, samples=5):
-    """Whether a few nodes lie on the surface (a global projection is slow: 0.5 ms each)."""
-    step = max(1, len(nodes) // samples)
-    for point in nodes[::step][:samples]:
-        point = Part.Vertex(*point).Point
-        if (surface.value(*surface.parameter(point)) - point).Length > tolerance:
+def agrees(surface, face):
+    """Whether surface and face give the same points for the same (u, v)."""
+    u0, u1, v0, v1 = face.ParameterRange
+    for share in (0.2, 0.5, 0.7):
+        u, v = u0 + share * (u1 - u0), v0 + 0.9 * share * (v1 - v0)
+        here = face.valueAt(u, v)
+        if (surface.value(u, v) - here).Length > 1e-9 * (1.0 + here.Length):
             return False
     return True
+
+
+def passes_through(surface, nodes, tolerance, samples=5):
+    """Whether most of a few nodes lie on the surface (each takes a global projection: 0.5 to 5 ms)."""
+    step = max(1, len(nodes) // samples)
+    near = []
+    for point in nodes[step // 2 :: step][:samples]:
+        point = FreeCAD.Vector(*point)
+        near.append((surface.value(*surface.parameter(point)) - point).Length <= tolerance)
+    return 2 * sum(near) > len(near)
 
 
 def seam_is_smooth(edge, face, kind):

@@ -7,7 +7,7 @@ surfaces are no segments (unless asked for).  Cost: 2 to 10 microseconds per tri
 Limits: touching solids must have equal faces where they touch; self-intersections are left to the core to find.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import numpy as np
 import Part
@@ -35,11 +35,10 @@ ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (4.0, 1.6))
 
 @dataclass
 class ShapePlc:
-    """A PLC with what only the document needs: `aliases` (dropped -> kept elements), notes for the user."""
+    """A PLC and its aliases: CAD elements whose triangles another element carries (dropped -> kept)."""
 
     plc: Plc
     aliases: Aliases
-    warnings: list = field(default_factory=list)
 
 
 def plc_from_shape(shape, options=None, keep=()):
@@ -57,7 +56,7 @@ def convert(shape, options=None, keep=()):
     keep = set(keep) | set(getattr(options, "sizes", None) or ())
     linear, angular = deflections(shape, options)
     faults = None
-    for linear_factor, angular_factor in ATTEMPTS:
+    for linear_factor, angular_factor in ATTEMPTS if shape.isValid() else ATTEMPTS[:1]:
         mesh = tessellate(shape, linear * linear_factor, angular * angular_factor)
         sides = face_sides(mesh.faces, mesh.shape.Solids)
         rows, edges = open_triangles(mesh.triangles, sides[mesh.triangle_face], len(mesh.points))
@@ -138,8 +137,9 @@ def assemble(mesh, sides, keep):
             "spline_surfaces": surfaces,
             "spline_curves": curves,
         },
+        warnings=warnings,
     )
-    return ShapePlc(drop_unused_points(plc), aliases, warnings)
+    return ShapePlc(drop_unused_points(plc), aliases)
 
 
 def outward(mesh, sides, warnings):
@@ -208,11 +208,13 @@ def corner_points(vertex_point, is_feature, triangles, aliases):
 def drop_unused_points(plc):
     """The same PLC with points that no triangle uses left out."""
     used, compact = np.unique(plc.triangles, return_inverse=True)
-    plc.triangles = compact.reshape(-1, 3)
-    plc.segments = np.searchsorted(used, plc.segments)
-    plc.corners = np.searchsorted(used, plc.corners)
-    plc.points = plc.points[used]
-    return plc
+    return replace(
+        plc,
+        points=plc.points[used],
+        triangles=compact.reshape(-1, 3),
+        segments=np.searchsorted(used, plc.segments),
+        corners=np.searchsorted(used, plc.corners),
+    )
 
 
 def face_names(faces):
