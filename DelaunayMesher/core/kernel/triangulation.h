@@ -9,6 +9,13 @@
 // A tetrahedron carries a 16-bit tag (the boundary stage: its solid) and four marks, one per face (the
 // boundary stage: the face is a labelled boundary triangle).  insert() hands both on: the tetrahedron made on
 // a border face inherits the tag of the cavity tetrahedron behind it and the mark of that face.
+//
+// Corners are positively oriented (orient3d > 0); the ghost is always corner 3, and a ghost tetrahedron
+// (a, b, c, ghost) is in conflict with the points on the positive side of (a, b, c), i.e. outside the hull.
+// Cost: about 20 sphere tests and 27 new tetrahedra per point; memory: docs/kernel.md.
+// Limits: coordinates of magnitude 1e-50 .. 1e50 or 0; at most 5e8 tetrahedra (a Face is 32 bits).
+// find_cavity is const but stamps: it may run in two threads at once only where no tetrahedron is seen by
+// both.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +29,14 @@ namespace dm {
 // A face of the triangulation: 4 * tet + i, the face of tet opposite its corner i.
 using Face = std::int32_t;
 
+// The corners of face i, counter-clockwise seen from corner i: (f0, f1, f2, corner i) is positively oriented.
+inline constexpr int kFaceCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
 struct Cavity {
-  std::vector<Index> tets;    // in conflict with the site
-  std::vector<Face> border;   // faces of cavity tets whose neighbour is not in conflict
-  std::vector<Index> created; // after insert(): created[k] stands on border[k], corner 3 = the new vertex
-                              // (ghosts: the ghost is corner 3 and the new vertex corner 2)
+  std::vector<Index> tets;     // in conflict with the site
+  std::vector<Face> border;    // faces of cavity tets whose neighbour is not in conflict
+  std::vector<Index> created;  // after insert(): created[k] stands on border[k], corner 3 = the new vertex
+                               // (ghosts: the ghost is corner 3 and the new vertex corner 2)
 };
 
 class Triangulation {
@@ -35,7 +45,8 @@ class Triangulation {
 
   // Triangulates `points` (Hilbert/BRIO order inside; vertex numbers stay those of `points`).
   // Exact duplicates get no tetrahedron: vertex_tet() of the later one is -1.
-  // Throws Failure("kernel", "degenerate_points") when all points are coplanar.
+  // Throws Failure("kernel", "degenerate_points") when all points are coplanar, Failure("kernel",
+  // "not_finite") when a coordinate is NaN or infinite.
   explicit Triangulation(std::span<const Vec3> points, int threads = 1);
 
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
@@ -48,12 +59,13 @@ class Triangulation {
   const Tet& corners(Index tet) const { return corners_[tet]; }
   // Face of the neighbour that touches face i of tet; the neighbour itself is that / 4.
   Face neighbour(Index tet, int i) const { return neighbours_[tet][i]; }
-  Index vertex_tet(Index vertex) const { return vertex_tet_[vertex]; }  // some tetrahedron at it
+  // Some tetrahedron (perhaps a ghost) at the vertex.
+  Index vertex_tet(Index vertex) const { return vertex_tet_[vertex + 1]; }
 
   std::uint16_t tag(Index tet) const { return tags_[tet]; }
   void set_tag(Index tet, std::uint16_t tag) { tags_[tet] = tag; }
-  bool marked(Index tet, int i) const { return marks_[tet] >> i & 1; }
-  unsigned marks(Index tet) const { return marks_[tet]; }
+  bool marked(Index tet, int i) const { return flags_[tet] >> i & 1; }
+  unsigned marks(Index tet) const { return flags_[tet] & 15u; }
   void set_marked(Index tet, int i, bool on);  // one side only
 
   // Is p inside the (perturbed) circumsphere of tet?  A new vertex is perturbed as number vertex_count().
@@ -62,7 +74,8 @@ class Triangulation {
   // when p equals an existing vertex.
   Index locate(const Vec3& p, Index hint) const;
 
-  // Fills the cavity of site p, starting from `start`, which must be in conflict with p.
+  // Fills the cavity of site p, starting from `start`, which must be in conflict with p (else, and so at
+  // an existing vertex, the cavity is empty and nothing can be inserted).
   // stop_at_marks: gives up at the first marked face with both sides in conflict and returns it, else -1.
   Face find_cavity(const Vec3& p, Index start, bool stop_at_marks, Cavity& cavity) const;
 
@@ -70,17 +83,38 @@ class Triangulation {
   Index insert(const Vec3& p, Cavity& cavity);
 
   // Every combinatorial and geometric invariant; throws Failure("kernel", ...) naming the first broken one.
-  // `exact_delaunay`: also that no vertex opposite a face is inside the sphere (local test, which implies all).
+  // `exact_delaunay`: also that no vertex opposite a face is inside the sphere (local test, which implies
+  // all).
   void check(bool exact_delaunay = true) const;
 
  private:
+  friend class TriangulationBuilder;
   static constexpr Index free_slot = -2;
+  // flags_: bits 0-3 the marks, bits 4 and 5 the stamps of find_cavity, which leaves none behind.
+  static constexpr std::uint8_t kInside = 16, kOutside = 32, kStamps = kInside | kOutside;
+
+  Triangulation() = default;
+  bool conflict(Index tet, const Vec3& p, Index number) const;
+  bool finite_conflict(const Tet& tet, const Vec3& p, Index number) const;
+  bool ghost_conflict(Index tet, const Vec3& p, Index number) const;
+  bool tie_conflict(const Tet& tet, const Vec3& p, Index number) const;
+  Index walk(const Vec3& p, Index hint) const;
+  Face search(const Vec3& p, Index number, Index start, bool stop_at_marks, Cavity& cavity) const;
+  void fill(Index vertex, Cavity& cavity);
+  void link(const Cavity& cavity);
+  void check_vertices(const std::vector<bool>& used) const;
+  void check_delaunay() const;
+  Index number_of(Index vertex) const { return numbers_.empty() ? vertex : numbers_[vertex]; }
+
   std::vector<Vec3> points_;
   std::vector<Tet> corners_;
   std::vector<std::array<Face, 4>> neighbours_;
   std::vector<std::uint16_t> tags_;
-  std::vector<std::uint8_t> marks_;
-  std::vector<Index> vertex_tet_;
+  mutable std::vector<std::uint8_t> flags_;
+  std::vector<Index> vertex_tet_;  // entry 0 is the ghost's
+  std::vector<Index> free_;        // free slots, the last one is used first
+  std::vector<Index> numbers_;     // while building: the caller's number of a vertex; afterwards empty
+  std::vector<Index> edge_table_;  // scratch of link()
 };
 
 }  // namespace dm

@@ -1,0 +1,27 @@
+// Insertion order of a point set: random rounds of growing size, each along a Hilbert curve.
+//
+// Idea: biased randomised insertion order (Amenta, Choi, Rote 2003) on a Hilbert curve (Butz 1971; transpose
+// form of Skilling 2004).  The rounds keep the expected cost of the worst point set, the curve keeps
+// consecutive points near each other.
+// Postcondition: a permutation that depends on the points alone.  Cost: linear (radix sort).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace dm {
+
+struct InsertionOrder {
+  std::vector<Index> order;   // point numbers
+  std::vector<Index> rounds;  // round r is order[rounds[r]] .. order[rounds[r + 1] - 1]
+};
+
+InsertionOrder insertion_order(std::span<const Vec3> points);
+
+// Position on a Hilbert curve of 2^21 cells per side; x, y, z are cell numbers below 2^21.
+std::uint64_t hilbert_code(std::uint32_t x, std::uint32_t y, std::uint32_t z);
+
+}  // namespace dm
