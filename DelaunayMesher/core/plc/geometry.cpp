@@ -1,61 +1,16 @@
 #include "plc/geometry.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
-#include <string>
 
 #include "plc/analytic_curve.h"
 #include "plc/analytic_surface.h"
 #include "plc/facet_surface.h"
+#include "plc/records.h"
+#include "plc/spline_curve.h"
+#include "plc/spline_surface.h"
 
 namespace dm {
 namespace {
-
-[[noreturn]] void bad_record(const std::string& what, Entity entity) {
-  const std::string name = (entity.dimension == 2 ? "Face" : "Edge") + std::to_string(entity.index + 1);
-  throw Failure("plc", "bad_geometry", name + ": " + what + ".", {}, entity);
-}
-
-bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-bool positive(double x) { return std::isfinite(x) && x > 0; }
-
-void check_record(const SurfaceRecord& r, Index face, std::size_t splines) {
-  const Entity entity{2, face};
-  if (!finite(r.origin) || !finite(r.axis))
-    bad_record("its surface has a coordinate that is not a number", entity);
-  const bool needs_axis = r.kind == SurfaceKind::plane || r.kind == SurfaceKind::cylinder ||
-                          r.kind == SurfaceKind::cone || r.kind == SurfaceKind::torus;
-  if (needs_axis && norm2(r.axis) == 0) bad_record("its surface has no direction", entity);
-  const bool round =
-      r.kind == SurfaceKind::cylinder || r.kind == SurfaceKind::sphere || r.kind == SurfaceKind::torus;
-  if (round && !positive(r.a)) bad_record("its radius is not a positive number", entity);
-  if (r.kind == SurfaceKind::torus && !positive(r.b))
-    bad_record("its minor radius is not a positive number", entity);
-  if (r.kind == SurfaceKind::cone && !(positive(r.a) && r.a < 0.5 * std::numbers::pi)) {
-    bad_record("the half angle of its cone is not between 0 and 90 degrees", entity);
-  }
-  if (r.kind == SurfaceKind::spline && (r.spline < 0 || static_cast<std::size_t>(r.spline) >= splines)) {
-    bad_record("its spline surface is missing", entity);
-  }
-  if (r.kind < SurfaceKind::facets || r.kind > SurfaceKind::spline)
-    bad_record("unknown kind of surface", entity);
-}
-
-void check_record(const CurveRecord& r, Index edge, std::size_t splines) {
-  const Entity entity{1, edge};
-  if (!finite(r.origin) || !finite(r.axis))
-    bad_record("its curve has a coordinate that is not a number", entity);
-  const bool needs_axis = r.kind == CurveKind::line || r.kind == CurveKind::circle;
-  if (needs_axis && norm2(r.axis) == 0) bad_record("its curve has no direction", entity);
-  if (r.kind == CurveKind::circle && !positive(r.a))
-    bad_record("its radius is not a positive number", entity);
-  if (r.kind == CurveKind::spline && (r.spline < 0 || static_cast<std::size_t>(r.spline) >= splines)) {
-    bad_record("its spline curve is missing", entity);
-  }
-  if (r.kind < CurveKind::polyline || r.kind > CurveKind::spline) bad_record("unknown kind of curve", entity);
-}
 
 // The PLC's triangles of one face, and where their middle is.
 struct FacePatch {
@@ -99,10 +54,12 @@ std::vector<EdgePath> edge_paths(const Plc& plc) {
   return paths;
 }
 
-std::unique_ptr<Surface> make_surface(const SurfaceRecord& record, const FacePatch& patch) {
+std::unique_ptr<Surface> make_surface(const SurfaceRecord& record, const GeometryRecords& records,
+                                      const FacePatch& patch) {
   switch (record.kind) {
-    case SurfaceKind::facets:
     case SurfaceKind::spline:
+      return std::make_unique<SplineSurface>(records.spline_surfaces[record.spline]);
+    case SurfaceKind::facets:
       if (patch.triangles.empty()) return std::make_unique<NoSurface>();
       return std::make_unique<FacetSurface>(patch.triangles);
     default: {
@@ -117,12 +74,15 @@ std::unique_ptr<Surface> make_surface(const SurfaceRecord& record, const FacePat
   }
 }
 
-std::unique_ptr<Curve> make_curve(const CurveRecord& record, const EdgePath& path) {
+std::unique_ptr<Curve> make_curve(const CurveRecord& record, const GeometryRecords& records,
+                                  const EdgePath& path) {
   switch (record.kind) {
     case CurveKind::line:
       return std::make_unique<LineCurve>(record, path);
     case CurveKind::circle:
       return std::make_unique<CircleCurve>(record, path);
+    case CurveKind::spline:
+      return std::make_unique<SplineCurve>(records.spline_curves[record.spline]);
     default: {
       if (path.segments.empty()) return std::make_unique<NoCurve>();
       std::vector<SegmentItem> segments;
@@ -170,25 +130,19 @@ Geometry::Geometry(const Plc& plc, GeometryRecords records) : impl_(std::make_un
   const std::size_t face_count = plc.face_solids.size(), edge_count = plc.edge_count;
   if (records.faces.empty()) records.faces.resize(face_count);
   if (records.edges.empty()) records.edges.resize(edge_count);
-  if (records.faces.size() != face_count || records.edges.size() != edge_count) {
-    throw Failure("plc", "bad_geometry",
-                  "The CAD geometry describes " + std::to_string(records.faces.size()) + " faces and " +
-                      std::to_string(records.edges.size()) + " edges, but the triangulated boundary has " +
-                      std::to_string(face_count) + " and " + std::to_string(edge_count) + ".");
-  }
+  check_records(records, face_count, edge_count);
+  simplify_records(records);
   const std::vector<FacePatch> patches = face_patches(plc);
   const std::vector<EdgePath> paths = edge_paths(plc);
   for (std::size_t i = 0; i < face_count; ++i) {
     const SurfaceRecord& record = records.faces[i];
-    check_record(record, static_cast<Index>(i), records.spline_surfaces.size());
-    std::unique_ptr<Surface> surface = make_surface(record, patches[i]);
+    std::unique_ptr<Surface> surface = make_surface(record, records, patches[i]);
     const auto side = sides(*surface, patches[i]);
     impl_->faces.push_back({std::move(surface), side, record.kind == SurfaceKind::plane});
   }
   for (std::size_t i = 0; i < edge_count; ++i) {
     const CurveRecord& record = records.edges[i];
-    check_record(record, static_cast<Index>(i), records.spline_curves.size());
-    impl_->edges.push_back({make_curve(record, paths[i]), record.kind == CurveKind::line});
+    impl_->edges.push_back({make_curve(record, records, paths[i]), record.kind == CurveKind::line});
   }
 }
 

@@ -1,0 +1,213 @@
+#include "plc/spline_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dm {
+namespace {
+
+constexpr double bend =
+    0.06;  // distance of quarter points from where the chord has them, relative to the chord
+constexpr int max_depth = 7, max_steps = 40, max_cross_lines = 17;
+constexpr std::size_t max_cells = 40000;
+
+// At most `most` of the breaks, at least 5 parameters, the ends among them.
+std::vector<double> cross_lines(const std::vector<double>& breaks, std::size_t most) {
+  std::vector<double> all = refine_parameters(breaks, 4, 0, [](double, double) { return false; });
+  if (all.size() <= most) return all;
+  std::vector<double> chosen;
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(all[i * (all.size() - 1) / (most - 1)]);
+  return chosen;
+}
+
+double extent_of(const BSplineSurface& s, const std::vector<double>& us, const std::vector<double>& vs) {
+  Vec3 low = s.point(us[0], vs[0]), high = low;
+  for (const double u : us) {
+    for (const double v : vs) {
+      const Vec3 p = s.point(u, v);
+      for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+    }
+  }
+  return distance(low, high);
+}
+
+// A parameter moved by a step: kept in the range, or wrapped where the surface is closed.
+double moved(const KnotVector& knots, bool closed, double t, double step) {
+  const double first = knots.first(), last = knots.last(), length = last - first;
+  t += std::clamp(step, -0.5 * length, 0.5 * length);
+  if (closed) return t < first ? t + length : t > last ? t - length : t;
+  return std::clamp(t, first, last);
+}
+
+struct Step {
+  double u = 0, v = 0;
+};
+
+// Newton's step for the squared distance from p, along v alone or u alone where the range holds the other.
+// Where the distance is no bowl the second-order terms are left out (Gauss-Newton).
+Step newton_step(const SurfaceJet& jet, const Vec3& d, bool held_u, bool held_v) {
+  const double gu = dot(jet.u, d), gv = dot(jet.v, d);
+  const double e = norm2(jet.u), f = dot(jet.u, jet.v), g = norm2(jet.v);
+  double a = e + dot(jet.uu, d), b = f + dot(jet.uv, d), c = g + dot(jet.vv, d);
+  if (held_u || held_v) {
+    if (a < 0.1 * e) a = e;
+    if (c < 0.1 * g) c = g;
+    return {held_u || a <= 0 ? 0 : -gu / a, held_v || c <= 0 ? 0 : -gv / c};
+  }
+  const double bowl = e * g - f * f;
+  double det = a * c - b * b;
+  if (a < 0.1 * e || c < 0.1 * g || det < 0.05 * bowl) a = e, b = f, c = g, det = bowl;
+  if (det > 1e-20 * a * c) return {(b * gv - c * gu) / det, (b * gu - a * gv) / det};
+  // One direction is degenerate, or both are the same.
+  if (a >= c) return {a > 0 ? -gu / a : 0, 0};
+  return {0, c > 0 ? -gv / c : 0};
+}
+
+bool held(const KnotVector& knots, bool closed, double t, double slope) {
+  return !closed && ((t <= knots.first() && slope > 0) || (t >= knots.last() && slope < 0));
+}
+
+}  // namespace
+
+SplineSurface::SplineSurface(const SplineSurfaceRecord& record) : surface_(record) {
+  choose_lines();
+  build_grid();
+}
+
+// The lines of the grid; and whether the surface is closed.
+void SplineSurface::choose_lines() {
+  const KnotVector &ku = surface_.knots_u(), &kv = surface_.knots_v();
+  const std::vector<double> us = cross_lines(ku.breaks(), max_cross_lines);
+  const std::vector<double> vs = cross_lines(kv.breaks(), max_cross_lines);
+  const double extent = extent_of(surface_, us, vs);
+  const auto apart = [&](double ua, double va, double ub, double vb) {
+    return distance(surface_.point(ua, va), surface_.point(ub, vb)) > 1e-7 * extent;
+  };
+  closed_u_ =
+      std::none_of(vs.begin(), vs.end(), [&](double v) { return apart(ku.first(), v, ku.last(), v); });
+  closed_v_ =
+      std::none_of(us.begin(), us.end(), [&](double u) { return apart(u, kv.first(), u, kv.last()); });
+
+  for (double tolerance = bend;
+       lines_u_.empty() || (lines_u_.size() * lines_v_.size() > max_cells && tolerance < 1); tolerance *= 2) {
+    const auto bent = [&](const std::vector<double>& across, bool along_u, double a, double b) {
+      for (const double w : across) {
+        const auto at = [&](double t) { return along_u ? surface_.point(t, w) : surface_.point(w, t); };
+        const Vec3 pa = at(a), pb = at(b);
+        const double allowed = std::max(tolerance * distance(pa, pb), 1e-5 * extent);
+        for (const double s : {0.25, 0.5, 0.75}) {
+          if (distance(at(a + s * (b - a)), pa + s * (pb - pa)) > allowed) return true;
+        }
+      }
+      return false;
+    };
+    lines_u_ = refine_parameters(ku.breaks(), 4, max_depth,
+                                 [&](double a, double b) { return bent(vs, true, a, b); });
+    lines_v_ = refine_parameters(kv.breaks(), 4, max_depth,
+                                 [&](double a, double b) { return bent(us, false, a, b); });
+  }
+}
+
+void SplineSurface::build_grid() {
+  const std::size_t nu = lines_u_.size(), nv = lines_v_.size();
+  std::vector<Vec3> points;
+  points.reserve(nu * nv);
+  for (const double u : lines_u_) {
+    for (const double v : lines_v_) points.push_back(surface_.point(u, v));
+  }
+  std::vector<TriangleItem> triangles;
+  triangles.reserve(2 * (nu - 1) * (nv - 1));
+  for (std::size_t i = 0; i + 1 < nu; ++i) {
+    for (std::size_t j = 0; j + 1 < nv; ++j) {
+      const Vec3* corner = &points[i * nv + j];
+      triangles.emplace_back(corner[0], corner[nv], corner[nv + 1]);
+      triangles.emplace_back(corner[0], corner[nv + 1], corner[1]);
+    }
+  }
+  grid_.emplace(std::move(triangles));
+}
+
+SplineSurface::Foot SplineSurface::newton(const Vec3& p, double u, double v, double small_step) const {
+  const KnotVector &ku = surface_.knots_u(), &kv = surface_.knots_v();
+  SurfaceJet jet = surface_.jet(u, v);
+  for (int count = 0; count < max_steps; ++count) {
+    const Vec3 d = jet.point - p;
+    Step step =
+        newton_step(jet, d, held(ku, closed_u_, u, dot(jet.u, d)), held(kv, closed_v_, v, dot(jet.v, d)));
+    const double now2 = norm2(d);
+    const bool last = norm2(step.u * jet.u + step.v * jet.v) < small_step * small_step;
+    double next_u = moved(ku, closed_u_, u, step.u), next_v = moved(kv, closed_v_, v, step.v);
+    if (last) return {next_u, next_v, surface_.point(next_u, next_v), true};
+    jet = surface_.jet(next_u, next_v);
+    for (int halving = 0; norm2(jet.point - p) > now2; ++halving) {
+      if (halving == 12) return {u, v, surface_.point(u, v), false};
+      step = {0.5 * step.u, 0.5 * step.v};
+      next_u = moved(ku, closed_u_, u, step.u), next_v = moved(kv, closed_v_, v, step.v);
+      jet = surface_.jet(next_u, next_v);
+    }
+    u = next_u, v = next_v;
+  }
+  return {u, v, jet.point, false};
+}
+
+SplineSurface::Foot SplineSurface::foot(const Vec3& p) const {
+  const NearestPoint nearest = grid_->nearest(p);
+  const std::size_t cell = nearest.item / 2, cells_v = lines_v_.size() - 1, i = cell / cells_v,
+                    j = cell % cells_v;
+  const double u0 = lines_u_[i], u1 = lines_u_[i + 1], v0 = lines_v_[j], v1 = lines_v_[j + 1];
+  const bool lower = nearest.item % 2 == 0;
+  const double s = lower ? nearest.s + nearest.t : nearest.s, t = lower ? nearest.t : nearest.s + nearest.t;
+  const TriangleItem& triangle = grid_->item(nearest.item);
+  const double size = distance(triangle.corner(0), triangle.corner(lower ? 2 : 1));
+  Foot best = newton(p, u0 + s * (u1 - u0), v0 + t * (v1 - v0), 1e-6 * size);
+  if (best.settled && distance(best.point, p) <= std::sqrt(nearest.distance2) + 2 * bend * size) return best;
+  for (const double u : {u0, u1}) {
+    for (const double v : {v0, v1}) {
+      const Foot other = newton(p, u, v, 1e-6 * size);
+      if (norm2(other.point - p) < norm2(best.point - p)) best = other;
+    }
+  }
+  return best;
+}
+
+Vec3 SplineSurface::project(const Vec3& p) const {
+  return surface_.origin() + foot(p - surface_.origin()).point;
+}
+
+// The jet a fraction of the range further inside.
+SurfaceJet SplineSurface::inner_jet(double u, double v, double fraction) const {
+  const KnotVector &ku = surface_.knots_u(), &kv = surface_.knots_v();
+  const double middle_u = 0.5 * (ku.first() + ku.last()), middle_v = 0.5 * (kv.first() + kv.last());
+  return surface_.jet(u + fraction * (middle_u - u), v + fraction * (middle_v - v));
+}
+
+Vec3 SplineSurface::normal(const Vec3& p) const {
+  const Foot at = foot(p - surface_.origin());
+  // At a degenerate edge, a pole, the normal of a point beside it.
+  for (const double fraction : {0.0, 1e-6, 1e-4, 1e-2}) {
+    const SurfaceJet jet = inner_jet(at.u, at.v, fraction);
+    const double along_u = norm(jet.u) * surface_.knots_u().length();
+    const double along_v = norm(jet.v) * surface_.knots_v().length();
+    const Vec3 n = cross(jet.u, jet.v);
+    const bool degenerate = along_u < 1e-8 * along_v || along_v < 1e-8 * along_u;
+    if (!degenerate && norm(n) > 1e-7 * norm(jet.u) * norm(jet.v)) return normalized(n);
+  }
+  return {0, 0, 1};
+}
+
+// From the two fundamental forms; beside degenerate points and cusps a little further inside.
+double SplineSurface::curvature(const Vec3& p) const {
+  const Foot at = foot(p - surface_.origin());
+  for (const double fraction : {0.0, 1e-3, 1e-2}) {
+    const SurfaceJet jet = inner_jet(at.u, at.v, fraction);
+    const double e = norm2(jet.u), f = dot(jet.u, jet.v), g = norm2(jet.v), area2 = e * g - f * f;
+    if (area2 <= 1e-10 * e * g || area2 <= 0) continue;
+    const Vec3 n = (1 / std::sqrt(area2)) * cross(jet.u, jet.v);
+    const double l = dot(n, jet.uu), m = dot(n, jet.uv), k = dot(n, jet.vv);
+    const double mean = (e * k + g * l - 2 * f * m) / (2 * area2), gauss = (l * k - m * m) / area2;
+    return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
+  }
+  return 0;
+}
+
+}  // namespace dm

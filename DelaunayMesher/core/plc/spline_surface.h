@@ -1,0 +1,44 @@
+// Nearest point of a B-spline surface: nearest triangle of an adaptive grid, then Newton on the surface.
+//
+// The grid bends and changes pace little from line to line, so the nearest triangle lies on the right sheet
+// and Newton, with second-order terms, starts close: 3 steps (Ma, Hewitt 2003 treat the same two phases).
+// Postcondition: the result is a point of the surface within its range to rounding, even where Newton does
+// not settle (degenerate edges, kinks); surfaces closed in u or v wrap.  Limit: the surface, not the trimmed
+// face, is projected on.  Cost about 1 microsecond for a bicubic surface.
+#pragma once
+
+#include <optional>
+
+#include "plc/bspline.h"
+#include "plc/nearest_tree.h"
+#include "plc/surface.h"
+
+namespace dm {
+
+class SplineSurface final : public Surface {
+ public:
+  explicit SplineSurface(const SplineSurfaceRecord& record);
+  Vec3 project(const Vec3& p) const override;
+  Vec3 normal(const Vec3& p) const override;
+  double curvature(const Vec3& p) const override;
+  std::size_t sample_count() const { return lines_u_.size() * lines_v_.size(); }
+
+ private:
+  struct Foot {
+    double u, v;
+    Vec3 point;  // relative to the surface's origin
+    bool settled;
+  };
+  void choose_lines();
+  void build_grid();
+  Foot foot(const Vec3& local) const;
+  Foot newton(const Vec3& local, double u, double v, double small_step) const;
+  SurfaceJet inner_jet(double u, double v, double fraction) const;
+
+  BSplineSurface surface_;
+  bool closed_u_ = false, closed_v_ = false;
+  std::vector<double> lines_u_, lines_v_;
+  std::optional<NearestTree<TriangleItem>> grid_;  // items 2 k and 2 k + 1 halve cell k
+};
+
+}  // namespace dm
