@@ -42,9 +42,7 @@ class EditMesh {
     const Tet& c = mesh_.tets[t];
     return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : 3;
   }
-  double compute_bad(const Tet& t) const {
-    return tet_badness(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
-  }
+  double compute_bad(const Tet& t) const { return badness(cosines(t)); }
   AngleCosines cosines(const Tet& t) const {
     return angle_cosines(point(t[0]), point(t[1]), point(t[2]), point(t[3]));
   }

@@ -13,21 +13,15 @@ constexpr int kEdgeRest[4][4][2] = {{{-1, -1}, {2, 3}, {3, 1}, {1, 2}},
 
 }  // namespace
 
-bool is_better(const AngleCosines& before, const AngleCosines& after) {
-  constexpr double kSharpFree = 0.848, kBluntFree = -0.719;  // cos 32, cos 136
-  return badness(after) < badness(before) && after.sharp <= std::max(before.sharp, kSharpFree) &&
-         after.blunt >= std::min(before.blunt, kBluntFree);
-}
-
 // False when the edge is on the boundary or its ring is too long.
-bool Flipper::find_ring(Index start, int ia, int ib, Ring& ring) const {
+bool Flipper::find_ring(Index start, int ia, int ib, int longest, Ring& ring) const {
   const Tet& first = mesh_.tet(start);
   ring.a = first[ia];
   ring.b = first[ib];
   ring.count = 0;
   int ic = kEdgeRest[ia][ib][0], id = kEdgeRest[ia][ib][1];
   for (Index t = start;;) {
-    if (ring.count == kMaxRing) return false;
+    if (ring.count == longest) return false;
     ring.tet[ring.count] = t;
     ring.corner[ring.count++] = mesh_.tet(t)[ic];
     if (mesh_.marked(t, ic)) return false;
@@ -84,9 +78,9 @@ void Flipper::add_triangles(const Ring& ring, int i, int k, Plan& plan) const {
   add_triangles(ring, j, k, plan);
 }
 
-void Flipper::plan_edge_removal(Index tet, int ia, int ib, Plan& best) {
+void Flipper::plan_edge_removal(Index tet, int ia, int ib, int longest, Plan& best) {
   Ring ring;
-  if (!find_ring(tet, ia, ib, ring)) return;
+  if (!find_ring(tet, ia, ib, longest, ring)) return;
   double worst = 0;
   for (int i = 0; i < ring.count; ++i) worst = std::max(worst, mesh_.bad(ring.tet[i]));
   Plan plan;
@@ -121,7 +115,7 @@ bool Flipper::is_allowed(const Plan& plan) const {
   AngleCosines before, after;
   for (int i = 0; i < plan.before_count; ++i) before.include(mesh_.cosines(mesh_.tet(plan.before[i])));
   for (int i = 0; i < plan.after_count; ++i) after.include(mesh_.cosines(plan.after[i]));
-  if (!is_better(before, after)) return false;
+  if (!keeps_angles(before, after)) return false;
   const auto was_there = [&](const Triangle& f) {
     for (int i = 0; i < plan.before_count; ++i) {
       const Tet& t = mesh_.tet(plan.before[i]);
@@ -139,14 +133,39 @@ bool Flipper::is_allowed(const Plan& plan) const {
   return true;
 }
 
+std::span<const Index> Flipper::apply(const Plan& plan) {
+  if (plan.worst >= kInverted) return {};
+  return mesh_.replace({plan.before.data(), static_cast<std::size_t>(plan.before_count)},
+                       {plan.after.data(), static_cast<std::size_t>(plan.after_count)});
+}
+
 std::span<const Index> Flipper::improve(Index tet) {
   Plan best;
   for (int i = 0; i < 4; ++i)
-    for (int j = i + 1; j < 4; ++j) plan_edge_removal(tet, i, j, best);
+    for (int j = i + 1; j < 4; ++j) plan_edge_removal(tet, i, j, kMaxRing, best);
   for (int i = 0; i < 4; ++i) plan_face_removal(tet, i, best);
-  if (best.worst >= kInverted) return {};
-  return mesh_.replace({best.before.data(), static_cast<std::size_t>(best.before_count)},
-                       {best.after.data(), static_cast<std::size_t>(best.after_count)});
+  return apply(best);
+}
+
+std::span<const Index> Flipper::improve_blunt(Index tet) {
+  constexpr int kEdge[6][2] = {{2, 3}, {1, 3}, {1, 2},
+                               {0, 3}, {0, 2}, {0, 1}};  // between the faces kFacePairs
+  const Tet& c = mesh_.tet(tet);
+  const auto cosines =
+      dihedral_cosines(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), mesh_.point(c[3]));
+  int first = 0, second = 1;
+  if (cosines[second] < cosines[first]) std::swap(first, second);
+  for (int k = 2; k < 6; ++k) {
+    if (cosines[k] < cosines[first]) {
+      second = first;
+      first = k;
+    } else if (cosines[k] < cosines[second]) {
+      second = k;
+    }
+  }
+  Plan best;
+  for (const int k : {first, second}) plan_edge_removal(tet, kEdge[k][0], kEdge[k][1], 4, best);
+  return apply(best);
 }
 
 }  // namespace dm

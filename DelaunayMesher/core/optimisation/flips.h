@@ -3,20 +3,15 @@
 // Edge removal (Freitag, Ollivier-Gooch 1997; Shewchuk 2002): the ring of tetrahedra round an interior edge
 // gives way to two tetrahedra per triangle of the best triangulation of the ring's polygon, found by dynamic
 // programming (Klincsek 1980); 3-2 and 4-4 flips are its small cases.  Face removal: the 2-3 flip.
-// Guard: the worst element becomes better, and neither the smallest nor the largest angle of the region gets
-// worse unless it stays within the range aimed at.  Boundary triangles and solids stay; no interior triangle
-// with all corners on one CAD face appears.
-// Cost: about 1 us per tetrahedron tried.
+// Guard: the worst badness of the region falls and keeps_angles() (quality.h) holds.  Boundary triangles and
+// solids stay; no interior triangle with all corners on one CAD face appears. Cost per tetrahedron tried:
+// improve 2 us, improve_blunt 0.3 us.
 #pragma once
 
 #include "optimisation/edit_mesh.h"
 #include "optimisation/fan.h"
 
 namespace dm {
-
-// Is `after` allowed in the place of `before`: worst badness lower, no end of the angle range worse than it
-// was unless inside 32..136 degrees?
-bool is_better(const AngleCosines& before, const AngleCosines& after);
 
 class Flipper {
  public:
@@ -25,6 +20,9 @@ class Flipper {
 
   // The best flip that takes `tet` away, if any is allowed.  Returns the new tetrahedra, empty if none.
   std::span<const Index> improve(Index tet);
+  // The same among the few candidates that succeed most: removal of one of the two edges with the largest
+  // angles, three or four tetrahedra round it.  On refined Delaunay meshes nineteen flips of twenty.
+  std::span<const Index> improve_blunt(Index tet);
 
  private:
   struct Ring {
@@ -38,12 +36,13 @@ class Flipper {
     std::array<Index, kMaxRing> before;
     std::array<Tet, 2 * (kMaxRing - 2)> after;
   };
-  bool find_ring(Index tet, int ia, int ib, Ring& ring) const;
-  void plan_edge_removal(Index tet, int ia, int ib, Plan& best);
+  bool find_ring(Index tet, int ia, int ib, int longest, Ring& ring) const;
+  void plan_edge_removal(Index tet, int ia, int ib, int longest, Plan& best);
   void plan_face_removal(Index tet, int face, Plan& best) const;
   bool triangulate(const Ring& ring, double bound, Plan& plan);
   void add_triangles(const Ring& ring, int i, int j, Plan& plan) const;
   bool is_allowed(const Plan& plan) const;
+  std::span<const Index> apply(const Plan& plan);
 
   EditMesh& mesh_;
   Fan fan_;

@@ -25,10 +25,18 @@ struct AngleCosines {
 };
 
 inline double badness(const AngleCosines& c) {
-  return std::max(c.sharp - 1.0 / 3, kBluntWeight * (1.0 / 3 - c.blunt));
+  return c.blunt > -1 ? std::max(c.sharp - 1.0 / 3, kBluntWeight * (1.0 / 3 - c.blunt)) : kInverted;
 }
-// Badness of an element whose smallest angle is `degrees` (and whose largest is not worse).
+// Badness of an element whose smallest angle is `degrees` and whose largest is not worse.
 inline double badness_at(double degrees) { return std::cos(degrees * std::numbers::pi / 180) - 1.0 / 3; }
+
+// The guard of every operation: neither the smallest nor the largest angle of the tetrahedra it touches gets
+// worse, unless it stays inside a range that is good anyway (34 to 130 degrees).
+inline bool keeps_angles(const AngleCosines& before, const AngleCosines& after) {
+  constexpr double kSharpFree = 0.829, kBluntFree = -0.6428;  // cos 34, cos 130
+  return after.sharp <= std::max(before.sharp, kSharpFree) &&
+         after.blunt >= std::min(before.blunt, kBluntFree) && after.blunt > -1;
+}
 
 inline bool is_positive(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return dot(area_vector(a, b, c), d - a) > 0;
@@ -39,10 +47,6 @@ inline AngleCosines angle_cosines(const Vec3& a, const Vec3& b, const Vec3& c, c
   const auto cosines = dihedral_cosines(a, b, c, d);
   const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
   return {*high, *low};
-}
-
-inline double tet_badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return is_positive(a, b, c, d) ? badness(angle_cosines(a, b, c, d)) : kInverted;
 }
 
 }  // namespace dm

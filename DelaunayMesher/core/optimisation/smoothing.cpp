@@ -1,11 +1,10 @@
 #include "optimisation/smoothing.h"
 
-#include "optimisation/flips.h"
-
 namespace dm {
 
-// Gathers the star of v; false when it has too many tetrahedra.
-bool Smoother::load(Index v) {
+// Gathers the star of v; false when v is fixed or has too many tetrahedra.
+bool Smoother::load(Index v, bool soft) {
+  if (mesh_.entity(v).dimension < 1 || mesh_.vertex_tet(v) < 0) return false;
   const auto star = mesh_.star(v);
   if (star.size() > Fan::kCapacity) return false;
   fan_.clear();
@@ -20,34 +19,24 @@ bool Smoother::load(Index v) {
     reach += distance(place_, a);
   }
   size_ = reach / fan_.count;
+  soft_ = soft;
+  now_ = fan_score(fan_, place_, soft_, bad_.data());
   return true;
 }
 
-Smoother::Score Smoother::score(const Vec3& p, double* bad) const {
-  fan_badness(fan_, p, 1, bad);
-  Score s;
-  for (int k = 0; k < fan_.count; ++k) {
-    double power = bad[k] * bad[k];
-    for (int i = 1; i < log_power_; ++i) power *= power;
-    s.sum += power;
-    s.worst = std::max(s.worst, bad[k]);
-  }
-  return s;
-}
-
-Vec3 Smoother::gradient(const Vec3& p, double base) const {
+Vec3 Smoother::gradient() const {
   const double h = 1e-4 * size_;
   double bad[Fan::kCapacity];
   Vec3 g;
   for (int i = 0; i < 3; ++i) {
-    Vec3 q = p;
+    Vec3 q = place_;
     q[i] += h;
-    g[i] = (score(q, bad).sum - base) / h;
+    g[i] = (fan_score(fan_, q, soft_, bad).sum - now_.sum) / h;
   }
   return g;
 }
 
-// The triangles of the boundary at v must not turn over: their normal keeps its side of the CAD face.
+// The triangles of the boundary at v must not turn by more than 30 degrees.
 bool Smoother::keeps_boundary(Index v, const Vec3& p) const {
   for (int k = 0; k < fan_.count; ++k) {
     const Tet& c = mesh_.tet(tets_[k]);
@@ -69,22 +58,20 @@ bool Smoother::keeps_boundary(Index v, const Vec3& p) const {
   return true;
 }
 
-bool Smoother::is_allowed(Index v, const Vec3& p) const {
-  AngleCosines before, after;
-  for (int k = 0; k < fan_.count; ++k) {
-    const auto corner = [&](int i) {
-      return Vec3{fan_.corner[i][k], fan_.corner[i + 1][k], fan_.corner[i + 2][k]};
-    };
-    before.include(angle_cosines(corner(0), corner(3), corner(6), place_));
-    after.include(angle_cosines(corner(0), corner(3), corner(6), p));
-  }
-  return is_better(before, after) && (mesh_.interior(v) || keeps_boundary(v, p));
+// Goes to p if the guard allows it.
+bool Smoother::attempt(Index v, const Vec3& p) {
+  const FanScore score = fan_score(fan_, p, soft_, trial_bad_.data());
+  if (!(score.sum < now_.sum * (1 - 1e-3)) || !keeps_angles(now_.extremes, score.extremes)) return false;
+  if (!mesh_.interior(v) && !keeps_boundary(v, p)) return false;
+  now_ = score;
+  place_ = p;
+  std::swap(bad_, trial_bad_);
+  return true;
 }
 
-bool Smoother::step(Index v) {
+bool Smoother::descend(Index v) {
   const Entity entity = mesh_.entity(v);
-  double bad[Fan::kCapacity];
-  Vec3 direction = -gradient(place_, now_.sum);
+  Vec3 direction = -gradient();
   if (entity.dimension == 2) {
     const Vec3 n = geometry_.normal(entity.index, place_);
     direction -= dot(direction, n) * n;
@@ -92,45 +79,27 @@ bool Smoother::step(Index v) {
   const double length = norm(direction);
   if (!(length > 0)) return false;
   direction = (size_ / length) * direction;
-  Vec3 best = place_;
-  Score best_score = now_;
-  const auto attempt = [&](double s) {
-    const Vec3 q = geometry_.project(entity, place_ + s * direction);
-    const Score trial = score(q, bad);
-    if (!(trial.sum < best_score.sum) || trial.worst > now_.worst) return false;
-    best = q;
-    best_score = trial;
-    return true;
-  };
+  const Vec3 from = place_;
+  const auto at = [&](double s) { return geometry_.project(entity, from + s * direction); };
   double s = stride_;
-  if (attempt(s)) {
-    while (s < 0.25 && attempt(2 * s)) s *= 2;
+  bool moved = attempt(v, at(s));
+  if (moved) {
+    while (s < 0.2 && attempt(v, at(2 * s))) s *= 2;
   } else {
-    do s *= 0.5;
-    while (s > 0.01 && !attempt(s));
+    while (!moved && s > 0.01) moved = attempt(v, at(s *= 0.5));
   }
   stride_ = std::clamp(s, 0.01, 0.2);
-  if (best_score.sum >= now_.sum * (1 - 1e-3)) return false;
-  if (!is_allowed(v, best)) return false;
-  place_ = best;
-  now_ = best_score;
-  return true;
+  return moved;
 }
 
-bool Smoother::smooth(Index v, int log_power, int steps) {
-  if (mesh_.entity(v).dimension < 1 || mesh_.vertex_tet(v) < 0 || !load(v)) return false;
-  log_power_ = log_power;
+bool Smoother::smooth(Index v, bool soft, int steps) {
+  if (!load(v, soft)) return false;
   stride_ = 0.08;
-  double bad[Fan::kCapacity];
-  now_ = score(place_, bad);
-  bool moved = false;
-  for (int i = 0; i < steps && step(v); ++i) {
-    moved = true;
-    mesh_.set_point(v, place_);
-  }
-  if (!moved) return false;
-  score(place_, bad);
-  for (int k = 0; k < fan_.count; ++k) mesh_.set_bad(tets_[k], bad[k]);
+  int done = 0;
+  while (done < steps && descend(v)) ++done;
+  if (done == 0) return false;
+  mesh_.set_point(v, place_);
+  for (int k = 0; k < fan_.count; ++k) mesh_.set_bad(tets_[k], bad_[k]);
   return true;
 }
 
