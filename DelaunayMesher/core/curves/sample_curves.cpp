@@ -1,0 +1,224 @@
+#include "curves/sample_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "base/random.h"
+#include "curves/chains.h"
+
+namespace dm {
+namespace {
+
+constexpr double kMaxTurn = std::numbers::pi / 2;  // per part of a curve
+constexpr double kPiecesPerPart = 4;               // accuracy of the arc length
+constexpr double kSnap =
+    0.1;  // a sample this near to an old point, relative to the old segments, replaces it
+constexpr double kSnapStep = 0.3;  // ... but not farther than this part of a step, to keep the order
+
+// A point of the refined polyline: between old points `parent` and `parent + 1` of the chain.
+struct Piece {
+  Vec3 point;
+  double metric = 0;  // integral of ds / L from the chain's start
+  Index parent = 0;
+};
+
+double turning(const std::vector<Vec3>& points, const Chain& chain) {
+  double sum = 0;
+  Vec3 last{};
+  Vec3 first{};
+  for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+    const Vec3 d = normalized(points[chain.points[i + 1]] - points[chain.points[i]]);
+    if (norm2(d) == 0) continue;
+    if (norm2(last) > 0)
+      sum += std::acos(std::clamp(dot(last, d), -1.0, 1.0));
+    else
+      first = d;
+    last = d;
+  }
+  if (chain.closed()) sum += std::acos(std::clamp(dot(last, first), -1.0, 1.0));
+  return sum;
+}
+
+class Sampler {
+ public:
+  Sampler(const Plc& plc, const Geometry& geometry, const SizeField& size, const CurveOptions& options,
+          Context& context)
+      : plc_(plc), geometry_(geometry), size_(size), options_(options), context_(context) {}
+
+  CurveSampling run() {
+    chains_ = find_chains(plc_, options_.keep);
+    start_result();
+    const std::size_t n = chains_.size();
+    parts_.resize(n);
+    for (std::size_t c = 0; c < n; ++c) {
+      pieces_of(chains_[c]);
+      parts_[c] = part_count(chains_[c]);
+    }
+    separate_twins();
+    for (std::size_t c = 0; c < n; ++c) {
+      sample(static_cast<Index>(c));
+      context_.poll(static_cast<double>(c) / static_cast<double>(n));
+    }
+    collect_inserted();
+    return std::move(result_);
+  }
+
+ private:
+  double length_at(const Vec3& p) const { return options_.edge_ratio * size_.at(p); }
+
+  void start_result() {
+    result_.points = plc_.points;
+    result_.role.assign(plc_.points.size(), CurvePointRole::none);
+    result_.entity.assign(plc_.points.size(), Entity{});
+    for (const Chain& chain : chains_) {
+      for (Index p : chain.points) result_.role[p] = CurvePointRole::dropped;
+    }
+    for (const Chain& chain : chains_)
+      for (Index p : {chain.points.front(), chain.points.back()}) {
+        result_.role[p] = CurvePointRole::fixed;
+        result_.entity[p] = {1, chain.edge};
+      }
+    for (std::size_t c = 0; c < plc_.corners.size(); ++c) {
+      result_.role[plc_.corners[c]] = CurvePointRole::fixed;
+      result_.entity[plc_.corners[c]] = {0, plc_.corner_vertex[c]};
+    }
+  }
+
+  // Refines the chain's polyline on the exact curve into pieces much shorter than the wanted length.
+  void pieces_of(const Chain& chain) {
+    pieces_.clear();
+    const bool straight = geometry_.is_line(chain.edge);
+    double length = length_at(plc_.points[chain.points[0]]);
+    pieces_.push_back({plc_.points[chain.points[0]], 0, 0});
+    for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+      const Vec3 a = plc_.points[chain.points[i]], b = plc_.points[chain.points[i + 1]];
+      const double end_length = length_at(b);
+      const double wanted = kPiecesPerPart * distance(a, b) / std::min(length, end_length);
+      const int cuts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, 1e6));
+      for (int k = 1; k <= cuts; ++k) {
+        Vec3 p = b;
+        if (k < cuts) {
+          p = a + (static_cast<double>(k) / cuts) * (b - a);
+          if (!straight) p = geometry_.project_to_edge(chain.edge, p);
+        }
+        const double next_length = k < cuts ? length_at(p) : end_length;
+        const Piece& last = pieces_.back();
+        const double step = 2 * distance(p, last.point) / (length + next_length);
+        pieces_.push_back({p, last.metric + step, static_cast<Index>(i)});
+        length = next_length;
+      }
+    }
+  }
+
+  Index part_count(const Chain& chain) const {
+    const double s = pieces_.back().metric;
+    double n = std::max(1.0, std::floor(s));
+    if (s > std::sqrt(n * (n + 1))) ++n;  // parts longer and shorter than wanted by equal factors
+    n = std::max(n, std::ceil(turning(plc_.points, chain) / kMaxTurn - 0.1));
+    return static_cast<Index>(std::max(n, chain.closed() ? 3.0 : 1.0));
+  }
+
+  // Two chains with the same ends must not become the same segment.
+  void separate_twins() {
+    std::vector<std::tuple<Index, Index, Index>> single;
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      if (parts_[c] != 1) continue;
+      const auto [a, b] = std::minmax(chains_[c].points.front(), chains_[c].points.back());
+      single.emplace_back(a, b, static_cast<Index>(c));
+    }
+    std::sort(single.begin(), single.end());
+    for (std::size_t k = 1; k < single.size(); ++k) {
+      const auto [a, b, c] = single[k];
+      if (a != std::get<0>(single[k - 1]) || b != std::get<1>(single[k - 1])) continue;
+      parts_[c] = 2;
+      parts_[std::get<2>(single[k - 1])] = 2;
+    }
+  }
+
+  Vec3 point_at(double metric, Index edge, std::size_t& k) const {
+    while (k + 1 < pieces_.size() && pieces_[k].metric < metric) ++k;
+    const Piece &a = pieces_[k - 1], &b = pieces_[k];
+    const double span = b.metric - a.metric;
+    const Vec3 p = a.point + (span > 0 ? (metric - a.metric) / span : 0.0) * (b.point - a.point);
+    return geometry_.project_to_edge(edge, p);
+  }
+
+  // The old point that a sample between old points i and i + 1 of the chain can take the place of, or -1.
+  Index replaceable(const Chain& chain, Index i, Index last, const Vec3& p) const {
+    const double old = distance(plc_.points[chain.points[i]], plc_.points[chain.points[i + 1]]);
+    const double reach = std::min(kSnap * old, kSnapStep * distance(result_.points[last], p));
+    for (Index k : {i, i + 1}) {
+      const Index v = chain.points[k];
+      if (result_.role[v] == CurvePointRole::dropped && distance(plc_.points[v], p) < reach) return v;
+    }
+    return -1;
+  }
+
+  void sample(Index c) {
+    const Chain& chain = chains_[c];
+    const Index n = parts_[c];
+    Index last = chain.points.front();
+    if (n > 1) pieces_of(chain);
+    const double step = pieces_.back().metric / n;
+    std::size_t k = 1;
+    for (Index i = 1; i < n; ++i) {
+      Random random(options_.jitter > 0 ? context_.seed : 0, 0x63757276, chain.points.front(),
+                    chain.segments[0], i);
+      const Vec3 p = point_at(step * (i + options_.jitter * random.symmetric()), chain.edge, k);
+      const Index parent = pieces_[k].parent;
+      Index v = replaceable(chain, parent, last, p);
+      if (v < 0) {
+        v = static_cast<Index>(result_.points.size());
+        result_.points.push_back(p);
+        result_.role.push_back(CurvePointRole::fixed);
+        result_.entity.push_back({1, chain.edge});
+        const Index s = chain.segments[parent];
+        insert_.push_back({s, plc_.segments[s][0] == chain.points[parent] ? i : -i, v});
+      } else {
+        result_.points[v] = p;
+        result_.role[v] = CurvePointRole::fixed;
+        result_.entity[v] = {1, chain.edge};
+      }
+      add_segment(last, v, chain.edge);
+      last = v;
+    }
+    add_segment(last, chain.points.back(), chain.edge);
+  }
+
+  void add_segment(Index a, Index b, Index edge) {
+    result_.segments.push_back({a, b});
+    result_.segment_edge.push_back(edge);
+  }
+
+  void collect_inserted() {
+    std::sort(insert_.begin(), insert_.end());
+    result_.first.assign(plc_.segments.size() + 1, 0);
+    for (const auto& [segment, order, v] : insert_) {
+      ++result_.first[segment + 1];
+      result_.inserted.push_back(v);
+    }
+    for (std::size_t s = 0; s < plc_.segments.size(); ++s) result_.first[s + 1] += result_.first[s];
+  }
+
+  const Plc& plc_;
+  const Geometry& geometry_;
+  const SizeField& size_;
+  const CurveOptions& options_;
+  Context& context_;
+  CurveSampling result_;
+  std::vector<Chain> chains_;
+  std::vector<Index> parts_;
+  std::vector<Piece> pieces_;
+  std::vector<std::array<Index, 3>> insert_;  // PLC segment, order along it, sample
+};
+
+}  // namespace
+
+CurveSampling sample_curves(const Plc& plc, const Geometry& geometry, const SizeField& size,
+                            const CurveOptions& options, Context& context) {
+  return Sampler(plc, geometry, size, options, context).run();
+}
+
+}  // namespace dm

@@ -1,0 +1,138 @@
+// PatchRemesher: removal of old boundary points and of edges shorter than wanted.
+#include <algorithm>
+#include <cmath>
+
+#include "surfaces/remesh_patch.h"
+
+namespace dm {
+namespace {
+
+constexpr double kAligned = 0.5;
+constexpr double kWorstShape = 1e-3;  // of a triangle that a collapse may leave (flips improve it afterwards)
+constexpr double kLongest = 1.45;     // edge made by a collapse, over the wanted length
+
+// 1 for the equilateral triangle, 0 for a degenerate one.
+double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double sum = norm2(b - a) + norm2(c - b) + norm2(a - c);
+  return sum > 0 ? 2 * std::sqrt(3.0) * norm(area_vector(a, b, c)) / sum : 0;
+}
+
+}  // namespace
+
+// Smallest shape of the triangles that collapsing `gone` along e leaves; negative when one of them turns away
+// from the surface (unless it did so before), is degenerate, or has an edge longer than max_ratio.
+double PatchRemesher::collapse_quality(Index e, Index gone, double max_ratio) const {
+  const Index keep = patch_.origin(e) == gone ? patch_.target(e) : patch_.origin(e);
+  double worst = 1;
+  patch_.for_each_corner(gone, [&](Index c) {
+    if (worst < 0) return;
+    const Index x = patch_.vertex[FacePatch::next(c)], y = patch_.vertex[FacePatch::prev(c)];
+    if (x == keep || y == keep) return;
+    const double after = alignment(keep, x, y);
+    const double q = shape(points()[keep], points()[x], points()[y]);
+    const bool poor = after < kAligned || q < kWorstShape;
+    if (poor && (after <= alignment(gone, x, y) + 0.01 || after <= 0)) worst = -1;
+    if (edge_ratio(keep, x) > max_ratio || edge_ratio(keep, y) > max_ratio) worst = -1;
+    if (worst >= 0) worst = std::min(worst, q);
+  });
+  return worst;
+}
+
+// ---- old boundary points
+
+// Flips edges at v away until only one triangle is left there, as far as nothing folds.
+bool PatchRemesher::flip_towards_ear(Index v) {
+  bool any = false;
+  for (bool again = true; again;) {
+    again = false;
+    Index found = -1;
+    patch_.for_each_corner(v, [&](Index c) {
+      const Index e = FacePatch::prev(c);  // v -> next vertex
+      if (found >= 0 || patch_.twin[e] < 0) return;
+      const Index m = patch_.twin[e];
+      const Index a = patch_.apex(e), d = patch_.apex(m), b = patch_.target(e);
+      if (a == d || alignment(a, v, d) < kAligned || alignment(d, b, a) < kAligned) return;
+      if (shape(points()[d], points()[b], points()[a]) < kWorstShape) return;
+      if (patch_.find_edge(a, d) < 0) found = e;
+    });
+    if (found >= 0) {
+      patch_.flip(found);
+      any = again = true;
+    }
+  }
+  return any;
+}
+
+bool PatchRemesher::remove_boundary_vertex(Index v) {
+  for (const bool flipped : {false, true}) {
+    if (flipped && !flip_towards_ear(v)) break;
+    Index sides[2] = {-1, -1};
+    patch_.for_each_corner(v, [&](Index c) {
+      if (patch_.twin[FacePatch::prev(c)] < 0) sides[0] = FacePatch::prev(c);
+      if (patch_.twin[FacePatch::next(c)] < 0) sides[1] = FacePatch::next(c);
+    });
+    double best = -1;
+    Index side = -1;
+    for (const Index e : sides) {
+      if (e < 0 || !patch_.can_collapse(e, v)) continue;
+      const double q = collapse_quality(e, v, HUGE_VAL);
+      if (q > best) {
+        best = q;
+        side = e;
+      }
+    }
+    if (side < 0) continue;
+    const Index keep = patch_.origin(side) == v ? patch_.target(side) : patch_.origin(side);
+    patch_.collapse(side, v);
+    push_star(keep);
+    lawson();
+    return true;
+  }
+  push_star(v);
+  lawson();
+  return false;
+}
+
+void PatchRemesher::remove_dropped() {
+  std::vector<Index> work;
+  for (Index v = 0; v < patch_.vertex_count(); ++v)
+    if (patch_.kinds[v] == VertexKind::dropped) work.push_back(v);
+  while (!work.empty()) {
+    std::vector<Index> left;
+    for (Index v : work)
+      if (!remove_boundary_vertex(v)) left.push_back(v);
+    poll_();
+    if (left.size() == work.size()) return;
+    work = std::move(left);
+  }
+}
+
+// ---- short edges
+
+void PatchRemesher::collapse_short(double ratio) {
+  for (int round = 0; round < 30; ++round) {
+    Index removed = 0;
+    for (Index v = 0; v < patch_.vertex_count(); ++v) {
+      if ((v & 255) == 0) poll_();
+      if (patch_.kinds[v] != VertexKind::interior || patch_.corner_of(v) < 0) continue;
+      Index e = -1;
+      double shortest = ratio;
+      patch_.for_each_corner(v, [&](Index c) {
+        const double r = edge_ratio(v, patch_.vertex[FacePatch::next(c)]);
+        if (r < shortest) {
+          shortest = r;
+          e = FacePatch::prev(c);
+        }
+      });
+      if (e < 0 || !patch_.can_collapse(e, v) || collapse_quality(e, v, kLongest) < 0) continue;
+      const Index keep = patch_.target(e);
+      patch_.collapse(e, v);
+      push_star(keep);
+      ++removed;
+    }
+    if (removed == 0) return;
+    lawson();
+  }
+}
+
+}  // namespace dm

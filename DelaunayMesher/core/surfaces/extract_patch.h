@@ -1,0 +1,36 @@
+// From the PLC and the sampled curves to the patch of one CAD face.
+#pragma once
+
+#include <vector>
+
+#include "curves/sample_curves.h"
+#include "plc/plc.h"
+#include "surfaces/face_patch.h"
+
+namespace dm {
+
+// What all faces share: triangles by face, segments by their ends.  Cost O(triangles + segments log
+// segments).
+class PatchSource {
+ public:
+  PatchSource(const Plc& plc, const CurveSampling& curves);
+
+  // The patch of `face`: its tessellation, cut along segments, with the curve samples inserted in its
+  // boundary edges.  Old curve points are still in it, with kind `dropped`.  Cost O(size log size).
+  FacePatch extract(Index face) const;
+  Index triangle_count(Index face) const { return first_[face + 1] - first_[face]; }
+  // PLC segment joining two points, or -1.
+  Index find_segment(Index a, Index b) const;
+
+ private:
+  std::vector<Index> pair_half_edges(const std::vector<Index>& corners) const;
+  void fix_unlabelled(FacePatch& patch, const std::vector<Index>& corners) const;
+  void insert_samples(FacePatch& patch) const;
+
+  const Plc& plc_;
+  const CurveSampling& curves_;
+  std::vector<Index> first_, triangles_;            // by face
+  std::vector<std::array<Index, 3>> segment_ends_;  // sorted: lower point, higher point, segment
+};
+
+}  // namespace dm

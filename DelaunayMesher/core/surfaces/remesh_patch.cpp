@@ -1,0 +1,176 @@
+#include "surfaces/remesh_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+
+namespace dm {
+namespace {
+
+constexpr double kAligned = 0.5;       // a new triangle's normal within 60 degrees of the surface's
+constexpr double kDegenerate = 1e-10;  // area over the square of the longest edge
+constexpr double kFlipMargin = 1e-6;   // keeps rounding from flipping back and forth
+
+double longest2(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
+}
+
+}  // namespace
+
+PatchRemesher::PatchRemesher(FacePatch& patch, Index face, const Geometry& geometry, const SizeField& size,
+                             const SurfaceOptions& options, std::uint64_t seed, PatchPoll poll)
+    : patch_(patch),
+      face_(face),
+      geometry_(geometry),
+      size_(size),
+      options_(options),
+      seed_(seed),
+      poll_(poll),
+      planar_(geometry.is_plane(face)) {
+  start_vertices();
+}
+
+std::vector<Index> PatchRemesher::run() {
+  make_delaunay();
+  remove_dropped();
+  collapse_short(0.6);
+  make_delaunay();
+  refine(0.78);
+  remove_dropped();
+  smooth(2);
+  collapse_short(0.6);
+  refine(0.82);
+  smooth(2);
+  remove_dropped();
+  jitter();
+  std::vector<Index> left;
+  for (Index v = 0; v < patch_.vertex_count(); ++v)
+    if (patch_.kinds[v] == VertexKind::dropped && patch_.corner_of(v) >= 0) left.push_back(patch_.global[v]);
+  return left;
+}
+
+void PatchRemesher::set_vertex(Index v, const Vec3& p) {
+  patch_.points[v] = p;
+  patch_.lengths[v] = options_.edge_ratio * size_.at(p);
+  if (planar_ && v > 0) {
+    patch_.normals[v] = patch_.normals[0];
+    return;
+  }
+  const Vec3 n = geometry_.normal(face_, p);
+  const double l = norm2(n);
+  patch_.normals[v] = l > 0.5 && l < 2 ? n : Vec3{};  // also false for NaN
+}
+
+void PatchRemesher::start_vertices() {
+  for (Index v = 0; v < patch_.vertex_count(); ++v) {
+    set_vertex(v, patch_.points[v]);
+    if ((v & 255) == 0) poll_();
+  }
+  if (!planar_) drop_doubtful_normals();
+}
+
+// At an apex or pole the surface has no normal, and what the geometry says there misleads.
+void PatchRemesher::drop_doubtful_normals() {
+  for (Index t = 0; t < patch_.triangle_slots(); ++t) {
+    const Index* v = &patch_.vertex[3 * t];
+    const Vec3 &a = points()[v[0]], &b = points()[v[1]], &c = points()[v[2]];
+    const Vec3 n = area_vector(a, b, c);
+    if (norm(n) < 1e-6 * longest2(a, b, c)) continue;
+    for (int i = 0; i < 3; ++i)
+      if (dot(n, patch_.normals[v[i]]) < 0.2 * norm(n)) patch_.normals[v[i]] = {};
+  }
+}
+
+double PatchRemesher::alignment(const Vec3& pa, const Vec3& pb, const Vec3& pc, Index a, Index b,
+                                Index c) const {
+  const Vec3 n = area_vector(pa, pb, pc);
+  const double size2 = longest2(pa, pb, pc);
+  if (planar_) {
+    const double d = dot(n, patch_.normals[0]);
+    return d > kDegenerate * size2 ? 1 : d < -kDegenerate * size2 ? -1 : 0;
+  }
+  const double area = norm(n);
+  if (!(area > kDegenerate * size2)) return 0;
+  const Vec3 reference = patch_.normals[a] + patch_.normals[b] + patch_.normals[c];
+  const double r = norm(reference);
+  return r > 0.1 ? dot(n, reference) / (area * r) : 1;
+}
+
+double PatchRemesher::edge_ratio(Index a, Index b) const {
+  return 2 * distance(points()[a], points()[b]) / (patch_.lengths[a] + patch_.lengths[b]);
+}
+
+double PatchRemesher::radius_ratio(Index t) const {
+  const Index* v = &patch_.vertex[3 * t];
+  const Vec3 &a = points()[v[0]], &b = points()[v[1]], &c = points()[v[2]];
+  const double area2 = norm(area_vector(a, b, c));
+  const double product = std::sqrt(norm2(b - a) * norm2(c - b) * norm2(a - c));
+  const double length = (patch_.lengths[v[0]] + patch_.lengths[v[1]] + patch_.lengths[v[2]]) / 3;
+  return product / (2 * std::max(area2, kDegenerate * longest2(a, b, c)) * length);
+}
+
+// ---- Lawson flips
+
+// Sum of the angles facing e over 180 degrees, or one of the two triangles turned over.  Sines are signed by
+// the surface normal; sin(alpha + beta) < 0 needs neither square root nor arc function.
+bool PatchRemesher::violates_delaunay(Index e) const {
+  const Index m = patch_.twin[e];
+  const Index a = patch_.origin(e), b = patch_.target(e);
+  const Vec3 &pa = points()[a], &pb = points()[b], &pc = points()[patch_.apex(e)],
+             &pd = points()[patch_.apex(m)];
+  const Vec3 u = pa - pc, v = pb - pc, w = pb - pd, x = pa - pd;
+  const Vec3 cross1 = cross(u, v), cross2 = cross(w, x);
+  Vec3 n = patch_.normals[a] + patch_.normals[b];
+  if (norm2(n) < 0.1) n = cross1 + cross2;
+  const double s1 = dot(cross1, n), s2 = dot(cross2, n);
+  if (s1 <= 0 || s2 <= 0) return true;
+  const double d1 = dot(u, v), d2 = dot(w, x);
+  return s1 * d2 + s2 * d1 < -kFlipMargin * (std::abs(s1 * d2) + std::abs(s2 * d1));
+}
+
+bool PatchRemesher::can_flip(Index e) const {
+  const Index m = patch_.twin[e];
+  const Index a = patch_.origin(e), b = patch_.target(e), c = patch_.apex(e), d = patch_.apex(m);
+  if (c == d) return false;
+  const double after = std::min(alignment(c, a, d), alignment(d, b, c));
+  if (after < kAligned) {
+    const double before = std::min(alignment(c, a, b), alignment(d, b, a));
+    if (after < before + 0.05) return false;
+  }
+  return patch_.find_edge(c, d) < 0;
+}
+
+void PatchRemesher::push_star(Index v) {
+  patch_.for_each_corner(v, [&](Index c) {
+    stack_.push_back(c);
+    stack_.push_back(FacePatch::next(c));
+    stack_.push_back(FacePatch::prev(c));
+  });
+}
+
+void PatchRemesher::lawson() {
+  // The bound only matters where normals contradict each other.
+  std::size_t budget = 1000 + 30 * stack_.size();
+  while (!stack_.empty() && budget > 0) {
+    --budget;
+    const Index e = stack_.back();
+    stack_.pop_back();
+    if (!patch_.alive(e / 3) || patch_.twin[e] < 0) continue;
+    if (!violates_delaunay(e) || !can_flip(e)) continue;
+    const Index s = patch_.twin[e] / 3, t = e / 3;
+    patch_.flip(e);
+    for (const Index h : {3 * t, 3 * t + 2, 3 * s, 3 * s + 2}) stack_.push_back(h);
+  }
+  stack_.clear();
+}
+
+void PatchRemesher::make_delaunay() {
+  const Index n = static_cast<Index>(patch_.vertex.size());
+  for (Index e = n - 1; e >= 0; --e)
+    if (patch_.alive(e / 3) && patch_.twin[e] > e) stack_.push_back(e);
+  poll_();
+  lawson();
+}
+
+}  // namespace dm
