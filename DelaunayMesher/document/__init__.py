@@ -1,0 +1,29 @@
+"""The FreeCAD side: CAD shapes in, FEM mesh objects out.  Needs FreeCAD, never its window.
+
+    from DelaunayMesher import document
+    mesh = document.add_mesh(part, max_size=5.0, order=2)
+    document.run(mesh)
+"""
+
+from .find_freecad import find_freecad
+
+find_freecad()
+
+from .fcstd import write_fcstd  # noqa: E402
+from .femmesh import fem_mesh  # noqa: E402
+from .mesh_object import add_mesh, mesh_shape, run  # noqa: E402
+from .plc_from_shape import convert, plc_from_shape  # noqa: E402
+from .read_shape import CAD_SUFFIXES, read_shape  # noqa: E402
+
+__all__ = [
+    "CAD_SUFFIXES",
+    "add_mesh",
+    "convert",
+    "fem_mesh",
+    "find_freecad",
+    "mesh_shape",
+    "plc_from_shape",
+    "read_shape",
+    "run",
+    "write_fcstd",
+]

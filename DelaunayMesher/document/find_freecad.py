@@ -35,8 +35,10 @@ def candidates():
 
 def find_freecad():
     """Import and return the module ``FreeCAD``; MeshError (stage 'document') when there is none to be found."""
+    if "FreeCAD" in sys.modules:
+        return sys.modules["FreeCAD"]
     try:
-        return importlib.import_module("FreeCAD")
+        return add_workbenches(importlib.import_module("FreeCAD"))
     except ImportError:
         pass
     reasons = []
@@ -44,7 +46,7 @@ def find_freecad():
         if folder not in sys.path:
             sys.path.append(folder)
         try:
-            return importlib.import_module("FreeCAD")
+            return add_workbenches(importlib.import_module("FreeCAD"))
         except ImportError as error:
             sys.path.remove(folder)
             reasons.append("%s: %s" % (folder, error))
@@ -55,3 +57,12 @@ def find_freecad():
         "CAD files need FreeCAD (%s). Install it, or set FREECAD_LIB to the folder that holds its modules."
         % tried,
     )
+
+
+def add_workbenches(freecad):
+    """Make the Python modules of FreeCAD's workbenches importable, as FreeCAD itself does when it starts."""
+    for base in (freecad.getResourceDir(), freecad.getHomePath()):
+        for folder in (os.path.join(base, "Ext"), *sorted(glob.glob(os.path.join(glob.escape(base), "Mod", "*")))):
+            if os.path.isdir(folder) and folder not in sys.path:
+                sys.path.append(folder)
+    return freecad

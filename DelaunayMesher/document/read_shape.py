@@ -4,6 +4,7 @@ import os
 
 from ..errors import InputError
 from .find_freecad import find_freecad
+from .placement import global_shape
 
 CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep", ".brp", ".fcstd")
 
@@ -74,15 +75,3 @@ def consumes(user, item):
     if user.isDerivedFrom("App::LinkElement") or user.TypeId == "App::Link":
         return False
     return has_solid(user)
-
-
-def global_shape(item):
-    """The object's shape where it stands in the document (inside parts with placements)."""
-    if not hasattr(item, "getGlobalPlacement") or not hasattr(item, "Placement"):
-        return item.Shape
-    outer = item.getGlobalPlacement().multiply(item.Placement.inverse())
-    if outer.isIdentity():
-        return item.Shape
-    shape = item.Shape.copy()
-    shape.Placement = outer.multiply(shape.Placement)
-    return shape

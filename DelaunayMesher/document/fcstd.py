@@ -1,0 +1,51 @@
+"""Meshes as FreeCAD documents, for the command line."""
+
+import os
+import tempfile
+
+from ..errors import InputError
+from .find_freecad import find_freecad
+
+
+def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
+    """Write an .FCStd with the part (when there is one) and the filled FEM mesh object.
+
+    The file appears only when it is complete.  Raises InputError when it cannot be written.
+    """
+    find_freecad()
+    import FreeCAD
+
+    import Fem  # noqa: F401  registers the document types
+
+    from .femmesh import fem_mesh
+    from .mesh_object import add_mesh, size_rows, store
+    from .properties import set_options
+
+    filled = fem_mesh(mesh, aliases)
+    document = FreeCAD.newDocument("Mesh", hidden=True, temp=True)
+    try:
+        if shape is not None:
+            part = document.addObject("Part::Feature", "Part")
+            part.Shape = shape
+            target = add_mesh(part)
+            if options is not None:
+                set_options(target, options)
+                target.Sizes = size_rows(options.sizes)
+            store(target, mesh, filled)
+        else:
+            document.addObject("Fem::FemMeshObject", "FEMMesh").FemMesh = filled
+        save(document, path)
+    finally:
+        FreeCAD.closeDocument(document.Name)
+
+
+def save(document, path):
+    """Save under another name in the same folder, then rename."""
+    folder = os.path.dirname(os.path.abspath(path))
+    try:
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".mesh-") as workshop:
+            draft = os.path.join(workshop, "mesh.FCStd")
+            document.saveAs(draft)
+            os.replace(draft, path)
+    except OSError as error:
+        raise InputError("output", "unwritable", "%s: %s" % (path, error)) from None

@@ -1,0 +1,91 @@
+"""References to CAD elements in FreeCAD's own objects -> names of elements of the meshed shape, sizes and groups.
+
+FreeCAD's mesh refinements ("mesh regions") carry a size and references; mesh groups a name and references.  They may
+refer to another object than the meshed one (the box inside a cut, a body's feature): the element is then looked for
+by its geometry.
+"""
+
+from ..errors import InputError
+
+REFINEMENT_LISTS = ("MeshRegionList", "MeshRefinementList")  # up to FreeCAD 1.1, and later
+
+
+def referred_names(references, part, shape):
+    """Names ('Face3', ...) of the elements of `shape` (that of `part`) that a References property means."""
+    names = []
+    for item, elements in references:
+        if isinstance(elements, str):
+            elements = (elements,)
+        for element in [e for e in elements if e] or all_solids(item):
+            element = element.split(".")[-1]
+            names.append(element if item == part else find_element(item, element, shape))
+    return list(dict.fromkeys(names))
+
+
+def all_solids(item):
+    """A reference to a whole object means its solids."""
+    return ["Solid%d" % (number + 1) for number in range(len(item.Shape.Solids))]
+
+
+def find_element(item, element, shape):
+    """Name of the element of `shape` with the same geometry as `element` of another object; InputError if none."""
+    from femtools import geomtools
+
+    found = geomtools.find_element_in_shape(shape, geomtools.get_element(item, element))
+    if not found:
+        raise InputError(
+            "options",
+            "unknown_reference",
+            "%s of %s is not an element of the meshed part" % (element, item.Label),
+            entity=element,
+        )
+    return found
+
+
+def refinement_objects(target):
+    """FreeCAD's refinements of this mesh object, without repetition and without suppressed ones."""
+    found = []
+    for name in REFINEMENT_LISTS:
+        for item in getattr(target, name, ()):
+            if item not in found and not getattr(item, "Suppressed", False):
+                found.append(item)
+    return found
+
+
+def refinement_sizes(target, part, shape):
+    """({'Face3': 0.5, ...}, warnings) from all refinements of the mesh object; the smallest size wins."""
+    sizes, warnings = {}, []
+    for item in refinement_objects(target):
+        size = length(item, "CharacteristicLength")
+        if size <= 0.0 or not getattr(item, "References", None):
+            warnings.append("%s has no effect: it needs a size and references" % item.Label)
+            continue
+        for name in referred_names(item.References, part, shape):
+            sizes[name] = min(size, sizes.get(name, size))
+    return sizes, warnings
+
+
+def length(item, name):
+    """A length property as a number in mm; 0 when there is none."""
+    value = getattr(item, name, 0.0)
+    return float(getattr(value, "Value", value) or 0.0)
+
+
+def named_groups(target, part, shape):
+    """[(name, ['Face1', ...]), ...] from the mesh groups of the mesh object."""
+    groups = []
+    for item in getattr(target, "MeshGroupList", ()):
+        if item.References:
+            name = item.Label if getattr(item, "UseLabel", False) else item.Name
+            groups.append((name, referred_names(item.References, part, shape)))
+    return groups
+
+
+def constraint_names(analysis, part):
+    """Names of the part's elements that the constraints of an analysis refer to; seams among them are kept."""
+    names = []
+    for item in analysis.Group if analysis else ():
+        for other, elements in getattr(item, "References", None) or ():
+            if other == part:
+                names += [element.split(".")[-1] for element in elements if element]
+    return names
