@@ -135,7 +135,11 @@ SplineSurface::Foot SplineSurface::newton(const Vec3& p, double u, double v, dou
     Step step =
         newton_step(jet, d, held(ku, closed_u_, u, dot(jet.u, d)), held(kv, closed_v_, v, dot(jet.v, d)));
     const double now2 = norm2(d);
-    const bool last = norm2(step.u * jet.u + step.v * jet.v) < small_step * small_step;
+    const double length = norm(step.u * jet.u + step.v * jet.v);
+    // Beside a degenerate edge a short step can still turn far round it.
+    const bool last =
+        length < 1e-6 * small_step || (length < small_step && std::abs(step.u) < 1e-4 * ku.length() &&
+                                       std::abs(step.v) < 1e-4 * kv.length());
     double next_u = moved(ku, closed_u_, u, step.u), next_v = moved(kv, closed_v_, v, step.v);
     if (last) return {next_u, next_v, surface_.point(next_u, next_v), true};
     jet = surface_.jet(next_u, next_v);
@@ -181,16 +185,19 @@ SurfaceJet SplineSurface::inner_jet(double u, double v, double fraction) const {
   return surface_.jet(u + fraction * (middle_u - u), v + fraction * (middle_v - v));
 }
 
+// Neither direction degenerates: at a pole, the end of all its meridians, the parallels do.
+bool SplineSurface::regular(const SurfaceJet& jet, double least) const {
+  const double along_u = norm(jet.u) * surface_.knots_u().length();
+  const double along_v = norm(jet.v) * surface_.knots_v().length();
+  return along_u > least * along_v && along_v > least * along_u;
+}
+
 Vec3 SplineSurface::normal(const Vec3& p) const {
   const Foot at = foot(p - surface_.origin());
-  // At a degenerate edge, a pole, the normal of a point beside it.
   for (const double fraction : {0.0, 1e-6, 1e-4, 1e-2}) {
     const SurfaceJet jet = inner_jet(at.u, at.v, fraction);
-    const double along_u = norm(jet.u) * surface_.knots_u().length();
-    const double along_v = norm(jet.v) * surface_.knots_v().length();
     const Vec3 n = cross(jet.u, jet.v);
-    const bool degenerate = along_u < 1e-8 * along_v || along_v < 1e-8 * along_u;
-    if (!degenerate && norm(n) > 1e-7 * norm(jet.u) * norm(jet.v)) return normalized(n);
+    if (regular(jet, 1e-8) && norm(n) > 1e-7 * norm(jet.u) * norm(jet.v)) return normalized(n);
   }
   return {0, 0, 1};
 }
@@ -201,7 +208,7 @@ double SplineSurface::curvature(const Vec3& p) const {
   for (const double fraction : {0.0, 1e-3, 1e-2}) {
     const SurfaceJet jet = inner_jet(at.u, at.v, fraction);
     const double e = norm2(jet.u), f = dot(jet.u, jet.v), g = norm2(jet.v), area2 = e * g - f * f;
-    if (area2 <= 1e-10 * e * g || area2 <= 0) continue;
+    if (!regular(jet, 1e-4) || area2 <= 1e-10 * e * g) continue;
     const Vec3 n = (1 / std::sqrt(area2)) * cross(jet.u, jet.v);
     const double l = dot(n, jet.uu), m = dot(n, jet.uv), k = dot(n, jet.vv);
     const double mean = (e * k + g * l - 2 * f * m) / (2 * area2), gauss = (l * k - m * m) / area2;

@@ -33,6 +33,7 @@ class SplineSurface final : public Surface {
   void build_grid();
   Foot foot(const Vec3& local) const;
   Foot newton(const Vec3& local, double u, double v, double small_step) const;
+  bool regular(const SurfaceJet& jet, double least) const;
   SurfaceJet inner_jet(double u, double v, double fraction) const;
 
   BSplineSurface surface_;
