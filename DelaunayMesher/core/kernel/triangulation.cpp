@@ -14,6 +14,12 @@ void Triangulation::set_marked(Index tet, int i, bool on) {
   flags_[tet] = static_cast<std::uint8_t>(on ? flags_[tet] | bit : flags_[tet] & ~bit);
 }
 
+std::size_t Triangulation::bytes() const {
+  const auto held = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  return held(points_) + held(corners_) + held(neighbours_) + held(tags_) + held(flags_) + held(vertex_tet_) +
+         held(free_) + held(numbers_);
+}
+
 // Four corners and p on one sphere.  Every vertex is lifted by an infinitesimal, the larger the number the
 // larger: the power function changes by lift_i * volume_i for a corner and by -lift_p * (volume of the
 // tetrahedron) for p, so the vertex of the highest number whose factor is not zero decides.

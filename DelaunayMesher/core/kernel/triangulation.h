@@ -18,6 +18,8 @@
 // both.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -61,6 +63,9 @@ class Triangulation {
   Face neighbour(Index tet, int i) const { return neighbours_[tet][i]; }
   // Some tetrahedron (perhaps a ghost) at the vertex.
   Index vertex_tet(Index vertex) const { return vertex_tet_[vertex + 1]; }
+
+  // Memory held by all arrays.
+  std::size_t bytes() const;
 
   std::uint16_t tag(Index tet) const { return tags_[tet]; }
   void set_tag(Index tet, std::uint16_t tag) { tags_[tet] = tag; }
