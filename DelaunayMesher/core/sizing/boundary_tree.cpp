@@ -86,6 +86,34 @@ Index BoundaryTree::solid_at(const Vec3& p) const {
   return first == second ? first : solid_along(p, kDirections[2]);
 }
 
+Vec3 BoundaryTree::nearest(const Vec3& p) const {
+  Vec3 best = p;
+  double best2 = HUGE_VAL;
+  struct Entry {
+    Index node;
+    double distance2;
+  } stack[128];
+  int top = 0;
+  stack[top++] = {0, 0.0};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (entry.distance2 >= best2) continue;
+    const BoxTree::Node& node = tree_.nodes()[entry.node];
+    for (Index k = node.first; k < node.first + node.count; ++k) {
+      const Triangle& t = plc_.triangles[tree_.order()[k]];
+      const Vec3 q = nearest_on_triangle(p, plc_.points[t[0]], plc_.points[t[1]], plc_.points[t[2]]);
+      if (norm2(q - p) < best2) best = q, best2 = norm2(q - p);
+    }
+    if (node.count > 0) continue;
+    Entry near{node.first, tree_.nodes()[node.first].box.distance2(p)};
+    Entry far{node.first + 1, tree_.nodes()[node.first + 1].box.distance2(p)};
+    if (far.distance2 < near.distance2) std::swap(near, far);
+    stack[top++] = far;
+    stack[top++] = near;
+  }
+  return best;
+}
+
 bool BoundaryTree::touches(const Box& query) const {
   Index stack[128], top = 0;
   stack[top++] = 0;

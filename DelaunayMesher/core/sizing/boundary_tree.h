@@ -22,6 +22,7 @@ class BoundaryTree {
   // Solid (1-based) that p lies in, 0 = outside: by the side of the first triangle that rays from p hit, the
   // majority of three rays at most.  Not exact for points on the boundary.
   Index solid_at(const Vec3& p) const;
+  Vec3 nearest(const Vec3& p) const;  // on the triangles
   // Conservative: true whenever a triangle touches the box.
   bool touches(const Box& box) const;
   const Box& box() const { return tree_.nodes()[0].box; }  // of the whole PLC

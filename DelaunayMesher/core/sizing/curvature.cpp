@@ -64,11 +64,11 @@ class CurvatureSources {
     if (!(low < options_.max_size)) return;
     const double longest = std::sqrt(std::max({norm2(p[1] - p[0]), norm2(p[2] - p[1]), norm2(p[0] - p[2])}));
     if (high <= kSimilar * low || longest <= low) {
-      sources_.push_back({p[0], p[1], p[2], low, 3});
+      sources_.push_back({p[0], p[1], p[2], low, 3, true});
       return;
     }
     if (depth == kDeepestSplit) {
-      sources_.push_back({p[0], p[1], p[2], std::min(centre, options_.max_size), 3});
+      sources_.push_back({p[0], p[1], p[2], std::min(centre, options_.max_size), 3, true});
       return;
     }
     std::array<Vec3, 3> q;

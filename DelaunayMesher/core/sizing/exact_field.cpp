@@ -42,6 +42,14 @@ double ExactField::at(const Vec3& p, Index& hint) const {
   return std::max(h, floor);
 }
 
+double ExactField::continued(const Vec3& p, Index& hint) const {
+  const double h = at(p, hint);
+  if (hint < 0 || !sources.source(hint).on_boundary || boundary->solid_at(p) > 0) return h;
+  Index foot_hint = hint;
+  const double foot = at(boundary->nearest(p), foot_hint);
+  return std::max({2 * foot - h, 0.25 * foot, floor});
+}
+
 double ExactField::smallest() const {
   double h = std::min(max_size, sources.smallest());
   for (const SizeRegion& r : regions) h = std::min(h, r.size);

@@ -23,22 +23,27 @@ struct ExactField {
   const BoundaryTree* boundary = nullptr;
 
   double at(const Vec3& p, Index& hint) const;
+  // at() inside; outside, where a source on the boundary decides, the field continued linearly through the
+  // boundary, so that it has no kink there that interpolation would have to resolve.
+  double continued(const Vec3& p, Index& hint) const;
   double smallest() const;  // a lower bound of at()
   bool constant() const { return smallest() >= max_size; }
 
-  // Is the field at some place in the box lower than what `interpolant` says there, by more than the fraction
-  // `tolerance`?  A search by the nearest points of the sources in the box; `largest` bounds the interpolant.
+  // Does `interpolant` differ from the field by more than the fraction `tolerance` at some place where a
+  // source comes nearest to the middle of the box?  `largest` bounds the interpolant.
   template <class Interpolant>
-  bool dips(const Box& box, double largest, double tolerance, Interpolant&& interpolant) const {
-    const auto below = [&](const Vec3& q, double h) {
-      return std::max(h, floor) < (1 - tolerance) * interpolant(q);
+  bool differs(const Box& box, double largest, double tolerance, Interpolant&& interpolant) const {
+    const auto wrong = [&](const Vec3& on, double size, double rate) {
+      const Vec3 q = box.nearest(on);
+      const double h = std::max(size + rate * distance(on, q), floor), guess = interpolant(q);
+      if (h < (1 - tolerance) * guess) return true;
+      Index hint = -1;
+      return q == on && guess < (1 - tolerance) * h && guess < (1 - tolerance) * at(q, hint);
     };
-    for (const SizeRegion& r : regions) {
-      if (r.size >= largest) continue;
-      const Vec3 on = nearest_in_region(r, box.centre()), q = box.nearest(on);
-      if (below(q, r.size + slope(r) * distance(on, q))) return true;
-    }
-    return sources.any_dip(box, largest, below);
+    for (const SizeRegion& r : regions)
+      if (r.size < largest && wrong(nearest_in_region(r, box.centre()), r.size, slope(r))) return true;
+    return sources.any_near(box, largest,
+                            [&](const Vec3& on, double size) { return wrong(on, size, growth); });
   }
 
  private:

@@ -77,7 +77,7 @@ float Octree::Builder::corner_value(std::uint32_t x, std::uint32_t y, std::uint3
   std::size_t mask = keys_.size() - 1, slot = slot_of(key, mask);
   for (; keys_[slot] != 0; slot = (slot + 1) & mask)
     if (keys_[slot] == key) return known_[slot];
-  const auto value = static_cast<float>(field_.at(point(x, y, z), hint));
+  const auto value = static_cast<float>(field_.continued(point(x, y, z), hint));
   keys_[slot] = key;
   known_[slot] = value;
   if (2 * ++known_count_ > keys_.size()) grow();
@@ -100,12 +100,12 @@ bool Octree::Builder::must_split(Cell& cell, std::uint32_t size) {
   const std::uint32_t half = size / 2;
   const auto [x, y, z] = cell.corner;
   const double centre = corner_value(x + half, y + half, z + half, cell.hint);
-  if (edge > kLargestCell * std::min<double>(*low, centre)) return true;
   double mean = 0;
   for (const float v : cell.values) mean += v / 8;
+  if (edge > kLargestCell * std::min(mean, centre)) return true;
   if (std::abs(mean - centre) > kTolerance * centre) return true;
   const Box cube = box(cell, size);
-  return field_.dips(cube, *high, 2 * kTolerance, [&](const Vec3& q) {
+  return field_.differs(cube, *high, 2 * kTolerance, [&](const Vec3& q) {
     const Vec3 u = (1 / edge) * (q - cube.low);
     return interpolate(cell.values, u.x, u.y, u.z);
   });

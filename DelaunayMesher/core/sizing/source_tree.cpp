@@ -50,18 +50,24 @@ SourceTree::SourceTree(std::vector<SizeSource> sources, double growth) : growth_
   sources_.reserve(sources.size());
   for (const Index i : tree_.order()) sources_.push_back(sources[i]);
   const auto& nodes = tree_.nodes();
-  node_size_.assign(nodes.size(), HUGE_VAL);
+  node_size_.resize(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
-    double& size = node_size_[i];
-    if (nodes[i].count == 0) size = std::min(node_size_[nodes[i].first], node_size_[nodes[i].first + 1]);
-    for (Index k = 0; k < nodes[i].count; ++k) size = std::min(size, sources_[nodes[i].first + k].size);
+    NodeSize& node = node_size_[i];
+    if (nodes[i].count == 0) {
+      const NodeSize &left = node_size_[nodes[i].first], &right = node_size_[nodes[i].first + 1];
+      node = right.size < left.size ? right : left;
+    }
+    for (Index k = nodes[i].first; k < nodes[i].first + nodes[i].count; ++k)
+      if (sources_[k].size < node.size) node.size = sources_[k].size, node.source = k;
+    node.reach = growth * norm(nodes[i].box.extent());
   }
 }
 
 double SourceTree::at(const Vec3& p, double bound, Index& hint) const {
   if (tree_.empty()) return bound;
-  // Pruning at 1 % below the best so far saves about half of the visits where many sources tie.
-  constexpr double kSlack = 0.99;
+  // Where many sources tie (the middle of a ball) an exact answer would have to visit them all: a node is
+  // left out unless it may be 2 % better, and a node this small is represented by one of its sources.
+  constexpr double kSlack = 0.02;
   double best = bound;
   Index winner = -1;
   const auto ask = [&](Index k) {
@@ -71,7 +77,7 @@ double SourceTree::at(const Vec3& p, double bound, Index& hint) const {
     if (h < best) best = h, winner = k;
   };
   const auto lower_bound = [&](Index node) {
-    return node_size_[node] + growth_ * std::sqrt(tree_.nodes()[node].box.distance2(p));
+    return node_size_[node].size + growth_ * std::sqrt(tree_.nodes()[node].box.distance2(p));
   };
   if (hint >= 0) ask(hint);
   struct Entry {
@@ -82,7 +88,11 @@ double SourceTree::at(const Vec3& p, double bound, Index& hint) const {
   stack[top++] = {0, lower_bound(0)};
   while (top > 0) {
     const Entry entry = stack[--top];
-    if (entry.bound >= kSlack * best) continue;
+    if (entry.bound >= (1 - kSlack) * best) continue;
+    if (node_size_[entry.node].reach <= kSlack * entry.bound) {
+      ask(node_size_[entry.node].source);
+      continue;
+    }
     const BoxTree::Node& node = tree_.nodes()[entry.node];
     for (Index k = 0; k < node.count; ++k) ask(node.first + k);
     if (node.count > 0) continue;

@@ -69,7 +69,7 @@ void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<Siz
     for (const Index solid : plc.face_solids[face])
       size = std::min(size, size_of(options.solid_size, solid - 1));
     const auto [a, b, c] = plc.triangles[t];
-    add({plc.points[a], plc.points[b], plc.points[c], size, 3});
+    add({plc.points[a], plc.points[b], plc.points[c], size, 3, true});
   }
   for (std::size_t s = 0; s < plc.segments.size(); ++s) {
     const auto [a, b] = plc.segments[s];
@@ -77,8 +77,11 @@ void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<Siz
   }
   for (std::size_t c = 0; c < plc.corners.size(); ++c)
     add(SizeSource::point(plc.points[plc.corners[c]], size_of(options.vertex_size, plc.corner_vertex[c])));
-  for (std::size_t i = 0; i < options.points.size(); ++i)
-    add(SizeSource::point(options.points[i], options.point_size[i]));
+  for (std::size_t i = 0; i < options.points.size(); ++i) {
+    SizeSource source = SizeSource::point(options.points[i], options.point_size[i]);
+    source.on_boundary = false;
+    add(source);
+  }
 }
 
 }  // namespace dm
