@@ -24,8 +24,9 @@ FLAT = 1e-12  # volume relative to the cube of the diagonal
 class HalfEdges(NamedTuple):
     """The 3m sides of m triangles, sorted so that those of one edge are neighbours.
 
-    ends (3m, 2): the points, the lower first; owner: the triangle; direction: +1 when it runs from the lower to
-    the higher point; third: its other corner; starts, sizes: where each edge's group starts, and its size.
+    ends (3m, 2): the points, the lower first; owner: the triangle; direction: +1 when it runs from the
+    lower to the higher point; third: its other corner; starts, sizes: where each edge's group starts, and
+    its size.
     """
 
     ends: Any

@@ -1,0 +1,154 @@
+"""The command line: python3 -m DelaunayMesher INPUT -o OUTPUT [options]
+
+Exit status: 0 done, 1 no mesh (the reason on stderr), 2 wrong usage or unreadable input, 3 mesh written but
+some elements are below the target angle for another reason than the input's own angles, 130 cancelled.
+"""
+
+import argparse
+import os
+import sys
+import time
+
+from . import __version__
+from .errors import EXIT_BELOW_TARGET, EXIT_CANCELLED, EXIT_OK, InputError, MeshCancelled, MeshError, refusal
+from .options import OPTIONS, MeshOptions
+from .progress import TerminalBar
+
+
+def parser():
+    """The argument parser; its options are the rows of options.py."""
+    result = argparse.ArgumentParser(
+        prog="python3 -m DelaunayMesher",
+        description="Mesh a CAD solid or a closed triangulated surface with tetrahedra.",
+        epilog="Exit status: 0 done, 1 no mesh, 2 wrong usage or unreadable input, 3 mesh written but below the "
+        "target angle, 130 cancelled.",
+    )
+    result.add_argument(
+        "input",
+        metavar="INPUT",
+        help=".step .iges .brep .FCStd through FreeCAD; .stl .off .ply .obj .mesh .vtk .poly .smesh without",
+    )
+    result.add_argument(
+        "-o", "--output", required=True, metavar="OUTPUT", help=".FCStd .inp .vtu .msh .med .xdmf ..."
+    )
+    for option in OPTIONS:
+        add_option(result, option)
+    result.add_argument(
+        "--size-at",
+        action="append",
+        default=[],
+        metavar="NAME=MM",
+        help="size at FaceN, EdgeN, VertexN or SolidN, counted from 1; may be repeated",
+    )
+    result.add_argument("--report", metavar="FILE.json", help="write what was made, how good and how fast")
+    result.add_argument("--quiet", action="store_true", help="print errors only")
+    result.add_argument("--version", action="version", version="DelaunayMesher " + __version__)
+    return result
+
+
+def add_option(target, option):
+    """One row of the table as a command line option."""
+    text = option.help.replace("%", "%%")
+    if option.kind == "bool":
+        action = "store_false" if option.default else "store_true"
+        text = ("do not " if option.default else "") + text
+        target.add_argument(option.flag, dest=option.name, action=action, default=option.default, help=text)
+        return
+    if option.default is not None:
+        text += " (default %g)" % option.default
+    # Checked by options.py, which knows the ranges and says what is wrong.
+    choices = "|".join(str(choice) for choice in option.choices)
+    target.add_argument(
+        option.flag, dest=option.name, default=option.default, metavar=option.metavar or choices, help=text
+    )
+
+
+def mesh_options(arguments):
+    """MeshOptions from parsed arguments; raises InputError."""
+    sizes = {}
+    for item in arguments.size_at:
+        name, equals, size = item.partition("=")
+        if not equals:
+            raise refusal("--size-at needs NAME=MM, not %r" % item)
+        sizes[name.strip()] = size
+    return MeshOptions(sizes=sizes, **{option.name: getattr(arguments, option.name) for option in OPTIONS})
+
+
+def main(argv=None):
+    """Run the command line; returns the exit status."""
+    arguments = parser().parse_args(argv)
+    bar = TerminalBar() if sys.stderr.isatty() and not arguments.quiet else None
+    try:
+        status, report = work(arguments, bar)
+    except KeyboardInterrupt:
+        status, report = failed(arguments, MeshCancelled("command line"), bar)
+    except MeshError as error:
+        status, report = failed(arguments, error, bar)
+    if arguments.report and report is not None:
+        from .report import write_report
+
+        try:
+            write_report(arguments.report, report)
+        except OSError as error:
+            complain("%s: %s" % (arguments.report, error.strerror))
+            return EXIT_CANCELLED if status == EXIT_CANCELLED else max(status, InputError.exit_code)
+    return status
+
+
+def work(arguments, bar):
+    """Mesh, write, say what was made: (exit status, report)."""
+    from .meshfile import check_output, write_mesh
+    from .pipeline import run
+
+    options = mesh_options(arguments)
+    check_output(arguments.output)
+    if arguments.report and not os.path.isdir(os.path.dirname(os.path.abspath(arguments.report))):
+        raise refusal("%s: there is no such folder" % arguments.report)
+    mesh = run(arguments.input, options, bar)
+    start = time.perf_counter()
+    if bar:
+        bar("write", 0.0)
+    write_mesh(arguments.output, mesh)
+    mesh.seconds["write"] = time.perf_counter() - start
+    if bar:
+        bar.clear()
+    if not arguments.quiet:
+        print(summary(mesh, arguments.output))
+        for warning in mesh.warnings:
+            complain("warning: " + warning)
+    return EXIT_BELOW_TARGET if mesh.status == "usable" else EXIT_OK, mesh.report()
+
+
+def failed(arguments, error, bar):
+    """Say what went wrong: (exit status, report)."""
+    from .report import error_report
+
+    if bar:
+        bar.clear()
+    complain(error.message if isinstance(error, MeshCancelled) else str(error))
+    return error.exit_code, error_report(error, arguments.seed)
+
+
+def summary(mesh, output):
+    """What was made, in a few lines."""
+    quality = mesh.quality
+    lines = [
+        "%s: %d points, %d tetrahedra of order %d" % (output, len(mesh.points), len(mesh.tets), mesh.order),
+        "dihedral angles %.2f .. %.2f degrees; %d elements below %g"
+        % (
+            quality["min_dihedral"],
+            quality["max_dihedral"],
+            len(mesh.below_target),
+            mesh.options.target_angle,
+        ),
+        "%.3f s: %s" % (mesh.total_seconds, ", ".join("%s %.3f" % item for item in mesh.seconds.items())),
+    ]
+    return "\n".join(lines)
+
+
+def complain(text):
+    print("DelaunayMesher: " + text, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,103 @@
+"""Write meshes: FreeCAD documents through document, every other format through meshio."""
+
+import os
+import tempfile
+
+import numpy as np
+
+from .errors import InputError
+from .surfacefile import import_meshio
+
+CAD_ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep", ".brp", ".fcstd")
+FREECAD_ENDING = ".fcstd"
+# Formats of meshio that hold tetrahedra and triangles of both orders and read back the same.
+MESH_ENDINGS = (".inp", ".vtu", ".vtk", ".msh", ".med", ".xdmf", ".bdf", ".nas", ".mesh")
+
+
+def ending_of(path):
+    """The file name's ending in lower case, '.step' for instance."""
+    return os.path.splitext(str(path))[1].lower()
+
+
+def check_output(path):
+    """Raise InputError when `path` cannot be written: unknown format, no folder, no permission."""
+    folder = os.path.dirname(os.path.abspath(str(path)))
+    if not os.path.isdir(folder):
+        raise _unwritable("%s: there is no folder %s" % (path, folder))
+    if not os.access(str(path) if os.path.exists(str(path)) else folder, os.W_OK):
+        raise _unwritable("%s: no permission to write there" % path)
+    if ending_of(path) == FREECAD_ENDING:
+        return
+    if ending_of(path) not in MESH_ENDINGS:
+        known = ".FCStd " + " ".join(MESH_ENDINGS)
+        raise _unwritable(
+            "%s: cannot write %r files, only %s" % (path, ending_of(path), known), "unknown_format"
+        )
+    import_meshio()
+
+
+def _unwritable(message, code="unwritable"):
+    return InputError("write", code, message)
+
+
+def to_meshio(mesh):
+    """meshio.Mesh: cells tetra | tetra10 and triangle | triangle6, cell data 'solid' and 'face' (1-based, 0
+    = none).
+    """
+    meshio = import_meshio()
+    second = mesh.order == 2
+    tets = np.asarray(mesh.tets, dtype=np.int64)
+    triangles = np.asarray(mesh.triangles, dtype=np.int64)
+    cells = [("tetra10" if second else "tetra", tets), ("triangle6" if second else "triangle", triangles)]
+    data = {
+        "solid": [np.asarray(mesh.tet_solid, np.int32), np.zeros(len(triangles), np.int32)],
+        "face": [np.zeros(len(tets), np.int32), np.asarray(mesh.triangle_face, np.int32) + 1],
+    }
+    return meshio.Mesh(np.asarray(mesh.points), cells, cell_data=data)
+
+
+def write_mesh(path, mesh):
+    """Write `mesh` by the ending of `path`; raises InputError when that cannot be done."""
+    check_output(path)
+    ending = ending_of(path)
+    if ending == FREECAD_ENDING:
+        from . import document
+
+        document.write_fcstd(str(path), mesh, mesh.shape, mesh.options, mesh.aliases)
+        return
+    folder = os.path.dirname(os.path.abspath(str(path)))
+    try:
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".mesh-") as workshop:
+            write_with_meshio(os.path.join(workshop, os.path.basename(str(path))), to_meshio(mesh))
+            for name in os.listdir(workshop):  # some formats take several files
+                os.replace(os.path.join(workshop, name), os.path.join(folder, name))
+    except ImportError as error:
+        raise _unwritable("%s: this format needs a package: %s" % (path, error), "no_package") from None
+    except OSError as error:
+        raise _unwritable("%s: %s" % (path, error)) from None
+
+
+def write_with_meshio(path, mesh):
+    """Write a meshio.Mesh in the variant of each format that other programs read best."""
+    meshio = import_meshio()
+    ending = ending_of(path)
+    if ending == ".msh":
+        tags = _tags(mesh)
+        mesh.cell_data = {**mesh.cell_data, "gmsh:physical": tags, "gmsh:geometrical": tags}
+        meshio.write(path, mesh, file_format="gmsh22")  # the variant that every reader knows
+    elif ending == ".mesh":
+        if mesh.cells[0].type == "tetra10":
+            raise _unwritable("Medit's .mesh has no elements of second order", "unknown_format")
+        mesh.cell_data = {"medit:ref": _tags(mesh)}
+        meshio.write(path, mesh)
+    elif ending == ".xdmf":
+        meshio.write(path, mesh, data_format="XML")  # one file, and no need of h5py
+    else:
+        meshio.write(path, mesh)
+
+
+def _tags(mesh):
+    """The solid of each tetrahedron and the face of each triangle, for formats with one number per cell."""
+    return [
+        np.maximum(*pair).astype(np.int32) for pair in zip(mesh.cell_data["solid"], mesh.cell_data["face"])
+    ]

@@ -1,0 +1,142 @@
+"""The table of contents: read -> plc -> core -> mesh.
+
+The core (core/mesher.cpp) goes on: sizing -> curves -> surfaces -> boundary -> refinement -> optimisation
+-> order.
+"""
+
+import os
+import time
+from contextlib import contextmanager
+
+import numpy as np
+
+from . import extension, sizing
+from .errors import InputError, MeshCancelled, MeshError
+from .meshfile import CAD_ENDINGS, ending_of
+from .options import make_options
+from .plc import Plc
+from .result import mesh_from_core
+from .surfacefile import Surface, read_surface
+
+
+def run(source, options=None, report=None):
+    """Mesh of a Part shape, a Plc, a surface (points, triangles) or a file name.
+
+    options: MeshOptions, dict or None. report: callable (stage, fraction in 0..1) called now and then from
+    this thread; False cancels. Raises MeshError, InputError (wrong options, unreadable file) or
+    MeshCancelled.
+    """
+    core = extension.load()
+    options = make_options(options)
+    seconds = {}
+    if isinstance(source, (str, os.PathLike)):
+        with _stage("read", seconds, report):
+            source = read(source)
+    start = time.perf_counter()
+    with _stage("plc", seconds, report):
+        plc, shape, aliases = to_plc(source, options)
+        if options.max_size is None:
+            options = options.with_changes(max_size=sizing.automatic_max_size(plc.points))
+        core_options = options_for_core(options, plc)
+    try:
+        result = core.mesh(plc.as_dict(), plc.geometry, core_options, report)
+    except MemoryError:
+        raise MeshError("refinement", "out_of_memory", "the memory is full; use a larger size") from None
+    mesh = mesh_from_core(result, options, plc.warnings)
+    mesh.total_seconds = time.perf_counter() - start
+    mesh.seconds = _joined(seconds, mesh.seconds)
+    mesh.shape, mesh.aliases = shape, aliases
+    return mesh
+
+
+@contextmanager
+def _stage(name, seconds, report):
+    """Times a stage and reports its start and end."""
+    start = time.perf_counter()
+    _tell(report, name, 0.0)
+    yield
+    _tell(report, name, 1.0)
+    seconds[name] = time.perf_counter() - start
+
+
+def _tell(report, stage, fraction):
+    if report is not None and report(stage, fraction) is False:
+        raise MeshCancelled(stage)
+
+
+def _joined(first, second):
+    """Seconds per stage of both, in order."""
+    return {stage: first.get(stage, 0.0) + second.get(stage, 0.0) for stage in {**first, **second}}
+
+
+def read(path):
+    """A Part shape of a CAD file, or the Surface of any other file."""
+    if not os.path.isfile(path):
+        raise InputError("read", "unreadable", "there is no file %s" % path)
+    if ending_of(path) in CAD_ENDINGS:
+        from . import document
+
+        return document.read_shape(path)
+    return read_surface(path)
+
+
+def to_plc(source, options):
+    """(Plc, shape or None, aliases or None) of whatever is to be meshed."""
+    if isinstance(source, Plc):
+        source.check()
+        return source, None, None
+    if isinstance(source, Surface):
+        points, triangles, labels, holes, nested = source
+        plc = Plc.from_triangles(points, triangles, labels, holes=holes, nested=nested)
+        return plc, None, None
+    if isinstance(source, (tuple, list)) and len(source) == 2:
+        return Plc.from_triangles(np.asarray(source[0]), np.asarray(source[1])), None, None
+    if hasattr(source, "Shape"):
+        source = source.Shape
+    if not hasattr(source, "Faces"):
+        raise InputError(
+            "plc",
+            "unknown_source",
+            "cannot mesh a %s; give a Part shape, a Plc, a file name or (points, triangles)"
+            % type(source).__name__,
+        )
+    from . import document
+
+    converted = document.convert(source, options)
+    return converted.plc, source, converted.aliases
+
+
+def options_for_core(options, plc):
+    """The options dict of the extension."""
+    points = np.zeros((0, 3)) if options.size_points is None else options.size_points
+    values = np.zeros(0) if options.size_values is None else options.size_values
+    return {
+        "max_size": options.max_size,
+        "min_size": options.min_size or 0.0,
+        "growth": options.growth,
+        "elements_per_circle": options.elements_per_circle,
+        "elements_across": options.elements_across,
+        "target_angle": options.target_angle,
+        "optimise": options.optimise,
+        "order": options.order,
+        "seed": options.seed,
+        "threads": options.used_threads(),
+        "max_elements": options.max_elements or elements_that_fit(),
+        **sizing.sizes_by_name(options.sizes, plc),
+        "regions": sizing.regions_array(options.regions),
+        "size_points": points,
+        "size_values": values,
+    }
+
+
+def elements_that_fit():
+    """Number of tetrahedra that fit into the free memory; 0 when the system does not tell."""
+    try:
+        with open("/proc/meminfo") as file:
+            free = next(int(line.split()[1]) * 1024 for line in file if line.startswith("MemAvailable"))
+    except (OSError, StopIteration, ValueError):
+        return 0
+    return max(1000, min(free // BYTES_PER_ELEMENT, 2**31 - 1))
+
+
+BYTES_PER_ELEMENT = 600  # peak of all stages together, second order included

@@ -1,0 +1,126 @@
+"""The finished mesh with everything that is known about it."""
+
+from dataclasses import dataclass, field
+from typing import Any, Dict, List
+
+import numpy as np
+
+from .errors import entity_name
+
+
+@dataclass
+class Mesh:
+    """Arrays in mm; numbers count from 0 except solids (1-based, 0 = outside).
+
+    points (n, 3) float64, mid-side nodes last; point_dimension (n,) int8 and point_entity (n,) int32: the
+    CAD vertex (0), edge (1), face (2) or solid (3) that each point lies on; tets (t, 4 | 10) int32 in VTK
+    order with tet_solid (t,); triangles (b, 3 | 6) of boundary and interfaces with triangle_face (b,);
+    lines (l, 2 | 3) with line_edge (l,). below_target: elements under the target angle as dicts of tet,
+    angle, reason, entity, place. straightened: tetrahedra whose curved boundary edge had to stay straight.
+    seconds: stage -> time, in order.
+    """
+
+    points: Any
+    point_dimension: Any
+    point_entity: Any
+    tets: Any
+    tet_solid: Any
+    triangles: Any
+    triangle_face: Any
+    lines: Any
+    line_edge: Any
+    straightened: Any
+    below_target: List[Dict[str, Any]]
+    options: Any
+    seconds: Dict[str, float] = field(default_factory=dict)
+    statistics: Dict[str, float] = field(default_factory=dict)
+    warnings: List[str] = field(default_factory=list)
+    total_seconds: float = 0.0
+    shape: Any = None
+    aliases: Any = None
+    _quality: Any = None
+
+    @property
+    def order(self):
+        return 2 if self.tets.shape[1] == 10 else 1
+
+    @property
+    def status(self):
+        """'ok', or 'usable' when an element is below the target for another reason than the input's own
+        angles.
+        """
+        return "usable" if any(item["reason"] != "input_angle" for item in self.below_target) else "ok"
+
+    @property
+    def quality(self):
+        """Summary of quality.py, computed once."""
+        if self._quality is None:
+            from . import quality
+
+            self._quality = quality.summary(self.points, self.tets)
+        return self._quality
+
+    def nodes_of(self, name):
+        """Sorted numbers of the points on 'Face3', 'Edge1', 'Vertex2' (mid-side nodes too) or in 'Solid1'."""
+        from .sizing import parse_name
+
+        kind, number = parse_name(name)
+        if kind == "Face":
+            return np.unique(self.triangles[self.triangle_face == number - 1])
+        if kind == "Edge":
+            return np.unique(self.lines[self.line_edge == number - 1])
+        if kind == "Solid":
+            return np.unique(self.tets[self.tet_solid == number])
+        return np.flatnonzero((self.point_dimension == 0) & (self.point_entity == number - 1))
+
+    def write(self, path):
+        """Write the mesh; the ending decides the format (meshfile.write_mesh)."""
+        from .meshfile import write_mesh
+
+        write_mesh(path, self)
+
+    def report(self):
+        """The JSON report as a dict (report.py)."""
+        from .report import mesh_report
+
+        return mesh_report(self)
+
+
+def mesh_from_core(result, options, warnings=()):
+    """Mesh from the dict that _core.mesh returns."""
+    below = result["below_target"]
+    items = [
+        {
+            "tet": int(tet),
+            "angle": float(angle),
+            "reason": reason,
+            "entity": entity_name(dimension, entity),
+            "place": place,
+        }
+        for tet, angle, reason, dimension, entity, place in zip(
+            below["tet"],
+            below["angle"],
+            below["reason"],
+            below["dimension"],
+            below["entity"],
+            below["place"].tolist(),
+        )
+    ]
+    arrays = (
+        "points",
+        "point_dimension",
+        "point_entity",
+        "tets",
+        "tet_solid",
+        "triangles",
+        "triangle_face",
+        "lines",
+    )
+    return Mesh(
+        **{name: result[name] for name in (*arrays, "line_edge", "straightened")},
+        below_target=items,
+        options=options,
+        seconds=dict(result["seconds"]),
+        statistics=dict(result["statistics"]),
+        warnings=[*warnings, *result["warnings"]],
+    )
