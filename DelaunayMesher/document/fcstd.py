@@ -21,7 +21,7 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
     from .mesh_object import add_mesh, size_rows, store
     from .properties import set_options
 
-    filled = fem_mesh(mesh, aliases)
+    filled = fem_mesh(mesh, aliases=aliases)
     document = FreeCAD.newDocument("Mesh", hidden=True, temp=True)
     try:
         if shape is not None:

@@ -11,11 +11,11 @@ import numpy as np
 TETRAHEDRON = {4: [1, 0, 2, 3], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 
 
-def fem_mesh(mesh, aliases=None, groups=()):
+def fem_mesh(mesh, groups=(), aliases=None):
     """Fem.FemMesh of a Mesh.
 
-    aliases: touching.Aliases, names of CAD elements that share another one's triangles.  groups: (name, names of CAD
-    elements) pairs, such as ("Press", ["Face1", "Face4"]); all of one kind.
+    groups: (name, names of CAD elements) pairs, such as ("Press", ["Face1", "Face4"]).  aliases: touching.Aliases;
+    CAD elements that were merged into others have groups as well.
     """
     import Fem
 
@@ -31,7 +31,7 @@ def fem_mesh(mesh, aliases=None, groups=()):
             1 + len(mesh.lines) + len(mesh.triangles),
         ),
     }
-    collected = element_groups(mesh, members, aliases)
+    collected = element_groups(mesh, members, aliases or mesh.aliases)
     for name, (kind, numbers) in collected.items():
         add_group(target, name, kind, numbers)
     for name, elements in groups:
