@@ -22,10 +22,16 @@ std::string knot_defect(int degree, std::size_t poles, const std::vector<double>
   return "";
 }
 
+bool all_equal(const std::vector<double>& weights) {
+  return std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights[0]; });
+}
+
 std::string pole_defect(const std::vector<Vec3>& poles, const std::vector<double>& weights) {
   if (!weights.empty() && weights.size() != poles.size()) return "its spline has a wrong number of weights";
+  // Weights that are all the same say nothing: some exporters fill them with zeros.
   for (const double w : weights) {
-    if (!(finite(w) && w > 0)) return "its spline has a weight that is not a positive number";
+    if (!(finite(w) && w > 0) && !all_equal(weights))
+      return "its spline has a weight that is not a positive number";
   }
   for (const Vec3& p : poles) {
     if (!finite(p.x) || !finite(p.y) || !finite(p.z)) return "its spline has a pole that is not a number";
@@ -39,10 +45,6 @@ Vec3 middle(const std::vector<Vec3>& poles) {
     for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
   }
   return 0.5 * (low + high);
-}
-
-bool all_equal(const std::vector<double>& weights) {
-  return std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights[0]; });
 }
 
 std::vector<std::array<double, 4>> homogeneous(const std::vector<Vec3>& poles,

@@ -8,11 +8,12 @@ namespace {
 
 constexpr double bend =
     0.06;  // distance of quarter points from where the chord has them, relative to the chord
-constexpr int max_depth = 7, max_steps = 40, max_cross_lines = 17;
+constexpr int max_depth = 7, max_steps = 40, max_cross_lines = 17, max_breaks = 150;
+constexpr double settled = 2e-7;  // last step, relative to a cell: Newton squares it
 constexpr std::size_t max_cells = 40000;
 
 // At most `most` of the breaks, at least 5 parameters, the ends among them.
-std::vector<double> cross_lines(const std::vector<double>& breaks, std::size_t most) {
+std::vector<double> thinned(const std::vector<double>& breaks, std::size_t most) {
   std::vector<double> all = refine_parameters(breaks, 4, 0, [](double, double) { return false; });
   if (all.size() <= most) return all;
   std::vector<double> chosen;
@@ -31,40 +32,70 @@ double extent_of(const BSplineSurface& s, const std::vector<double>& us, const s
   return distance(low, high);
 }
 
-// A parameter moved by a step: kept in the range, or wrapped where the surface is closed.
-double moved(const KnotVector& knots, bool closed, double t, double step) {
-  const double first = knots.first(), last = knots.last(), length = last - first;
-  t += std::clamp(step, -0.5 * length, 0.5 * length);
-  if (closed) return t < first ? t + length : t > last ? t - length : t;
-  return std::clamp(t, first, last);
-}
-
 struct Step {
   double u = 0, v = 0;
+  bool cut = false;  // short of where it wanted to go
 };
 
-// Newton's step for the squared distance from p, along v alone or u alone where the range holds the other.
-// Where the distance is no bowl the second-order terms are left out (Gauss-Newton).
-Step newton_step(const SurfaceJet& jet, const Vec3& d, bool held_u, bool held_v) {
+// A quadratic bowl gu du + gv dv + (a du^2 + 2 b du dv + c dv^2) / 2.
+struct Bowl {
+  double gu, gv, a, b, c;
+};
+
+// Half the squared distance from p round (u, v).  Where that is no bowl the second-order terms are left out
+// (Gauss-Newton).
+Bowl bowl_of(const SurfaceJet& jet, const Vec3& d) {
   const double gu = dot(jet.u, d), gv = dot(jet.v, d);
   const double e = norm2(jet.u), f = dot(jet.u, jet.v), g = norm2(jet.v);
-  double a = e + dot(jet.uu, d), b = f + dot(jet.uv, d), c = g + dot(jet.vv, d);
-  if (held_u || held_v) {
-    if (a < 0.1 * e) a = e;
-    if (c < 0.1 * g) c = g;
-    return {held_u || a <= 0 ? 0 : -gu / a, held_v || c <= 0 ? 0 : -gv / c};
-  }
-  const double bowl = e * g - f * f;
-  double det = a * c - b * b;
-  if (a < 0.1 * e || c < 0.1 * g || det < 0.05 * bowl) a = e, b = f, c = g, det = bowl;
-  if (det > 1e-20 * a * c) return {(b * gv - c * gu) / det, (b * gu - a * gv) / det};
-  // One direction is degenerate, or both are the same.
-  if (a >= c) return {a > 0 ? -gu / a : 0, 0};
-  return {0, c > 0 ? -gv / c : 0};
+  const double a = e + dot(jet.uu, d), b = f + dot(jet.uv, d), c = g + dot(jet.vv, d);
+  const bool round = a > 0.1 * e && c > 0.1 * g && a * c - b * b > 0.05 * (e * g - f * f);
+  return round ? Bowl{gu, gv, a, b, c} : Bowl{gu, gv, e, f, g};
 }
 
-bool held(const KnotVector& knots, bool closed, double t, double slope) {
-  return !closed && ((t <= knots.first() && slope > 0) || (t >= knots.last() && slope < 0));
+// The bottom along one direction after a step in the other.
+double bottom(double slope, double curved, double mixed, double other) {
+  return curved > 0 ? -(slope + mixed * other) / curved : 0;
+}
+
+Step to_bottom(const Bowl& w) {
+  const double det = w.a * w.c - w.b * w.b;
+  if (det > 1e-20 * w.a * w.c) return {(w.b * w.gv - w.c * w.gu) / det, (w.b * w.gu - w.a * w.gv) / det};
+  // One direction is degenerate, or both are the same.
+  return w.a >= w.c ? Step{bottom(w.gu, w.a, 0, 0), 0} : Step{0, bottom(w.gv, w.c, 0, 0)};
+}
+
+// A parameter's range: where it ends, or that it has no ends.
+struct Bounds {
+  const KnotVector& knots;
+  bool closed;
+
+  // What is left of a step; `cut` is set when it stops at an end that t was not at.
+  double within(double t, double step, bool& cut) const {
+    if (closed) return step;
+    const double kept = std::clamp(step, knots.first() - t, knots.last() - t);
+    cut = cut || (kept != step && kept != 0);
+    return kept;
+  }
+  double moved(double t, double step) const {
+    const double first = knots.first(), last = knots.last(), length = last - first;
+    t += std::clamp(step, -0.5 * length, 0.5 * length);
+    if (closed) return t < first ? t + length : t > last ? t - length : t;
+    return std::clamp(t, first, last);
+  }
+};
+
+// Newton's step, along the bounds where it would leave the range.
+Step bounded_step(const Bowl& bowl, const Bounds& bu, const Bounds& bv, double u, double v) {
+  Step step = to_bottom(bowl);
+  const double du = bu.within(u, step.u, step.cut), dv = bv.within(v, step.v, step.cut);
+  if (du != step.u) {
+    step.u = du;
+    step.v = bv.within(v, bottom(bowl.gv, bowl.c, bowl.b, du), step.cut);
+  } else if (dv != step.v) {
+    step.v = dv;
+    step.u = bu.within(u, bottom(bowl.gu, bowl.a, bowl.b, dv), step.cut);
+  }
+  return step;
 }
 
 }  // namespace
@@ -77,8 +108,8 @@ SplineSurface::SplineSurface(const SplineSurfaceRecord& record) : surface_(recor
 // The lines of the grid; and whether the surface is closed.
 void SplineSurface::choose_lines() {
   const KnotVector &ku = surface_.knots_u(), &kv = surface_.knots_v();
-  const std::vector<double> us = cross_lines(ku.breaks(), max_cross_lines);
-  const std::vector<double> vs = cross_lines(kv.breaks(), max_cross_lines);
+  const std::vector<double> us = thinned(ku.breaks(), max_cross_lines);
+  const std::vector<double> vs = thinned(kv.breaks(), max_cross_lines);
   const double extent = extent_of(surface_, us, vs);
   const auto apart = [&](double ua, double va, double ub, double vb) {
     return distance(surface_.point(ua, va), surface_.point(ub, vb)) > 1e-7 * extent;
@@ -101,9 +132,9 @@ void SplineSurface::choose_lines() {
       }
       return false;
     };
-    lines_u_ = refine_parameters(ku.breaks(), 4, max_depth,
+    lines_u_ = refine_parameters(thinned(ku.breaks(), max_breaks), 4, max_depth,
                                  [&](double a, double b) { return bent(vs, true, a, b); });
-    lines_v_ = refine_parameters(kv.breaks(), 4, max_depth,
+    lines_v_ = refine_parameters(thinned(kv.breaks(), max_breaks), 4, max_depth,
                                  [&](double a, double b) { return bent(us, false, a, b); });
   }
 }
@@ -128,25 +159,23 @@ void SplineSurface::build_grid() {
 }
 
 SplineSurface::Foot SplineSurface::newton(const Vec3& p, double u, double v, double small_step) const {
-  const KnotVector &ku = surface_.knots_u(), &kv = surface_.knots_v();
+  const Bounds bu{surface_.knots_u(), closed_u_}, bv{surface_.knots_v(), closed_v_};
   SurfaceJet jet = surface_.jet(u, v);
   for (int count = 0; count < max_steps; ++count) {
     const Vec3 d = jet.point - p;
-    Step step =
-        newton_step(jet, d, held(ku, closed_u_, u, dot(jet.u, d)), held(kv, closed_v_, v, dot(jet.v, d)));
-    const double now2 = norm2(d);
-    const double length = norm(step.u * jet.u + step.v * jet.v);
+    Step step = bounded_step(bowl_of(jet, d), bu, bv, u, v);
+    const double now2 = norm2(d), length = norm(step.u * jet.u + step.v * jet.v);
     // Beside a degenerate edge a short step can still turn far round it.
-    const bool last =
-        length < 1e-6 * small_step || (length < small_step && std::abs(step.u) < 1e-4 * ku.length() &&
-                                       std::abs(step.v) < 1e-4 * kv.length());
-    double next_u = moved(ku, closed_u_, u, step.u), next_v = moved(kv, closed_v_, v, step.v);
+    const bool small =
+        std::abs(step.u) < 1e-4 * bu.knots.length() && std::abs(step.v) < 1e-4 * bv.knots.length();
+    const bool last = length < 1e-6 * small_step || (length < small_step && small && !step.cut);
+    double next_u = bu.moved(u, step.u), next_v = bv.moved(v, step.v);
     if (last) return {next_u, next_v, surface_.point(next_u, next_v), true};
     jet = surface_.jet(next_u, next_v);
     for (int halving = 0; norm2(jet.point - p) > now2; ++halving) {
       if (halving == 12) return {u, v, surface_.point(u, v), false};
-      step = {0.5 * step.u, 0.5 * step.v};
-      next_u = moved(ku, closed_u_, u, step.u), next_v = moved(kv, closed_v_, v, step.v);
+      step.u *= 0.5, step.v *= 0.5;
+      next_u = bu.moved(u, step.u), next_v = bv.moved(v, step.v);
       jet = surface_.jet(next_u, next_v);
     }
     u = next_u, v = next_v;
@@ -163,11 +192,11 @@ SplineSurface::Foot SplineSurface::foot(const Vec3& p) const {
   const double s = lower ? nearest.s + nearest.t : nearest.s, t = lower ? nearest.t : nearest.s + nearest.t;
   const TriangleItem& triangle = grid_->item(nearest.item);
   const double size = distance(triangle.corner(0), triangle.corner(lower ? 2 : 1));
-  Foot best = newton(p, u0 + s * (u1 - u0), v0 + t * (v1 - v0), 1e-6 * size);
+  Foot best = newton(p, u0 + s * (u1 - u0), v0 + t * (v1 - v0), settled * size);
   if (best.settled && distance(best.point, p) <= std::sqrt(nearest.distance2) + 2 * bend * size) return best;
   for (const double u : {u0, u1}) {
     for (const double v : {v0, v1}) {
-      const Foot other = newton(p, u, v, 1e-6 * size);
+      const Foot other = newton(p, u, v, settled * size);
       if (norm2(other.point - p) < norm2(best.point - p)) best = other;
     }
   }

@@ -236,6 +236,22 @@ TEST_CASE("collapsed edges and pinched corners") {
   check_projection(slow, 0.005, 1e-7);
 }
 
+TEST_CASE("beside the bounds of the range") {
+  const SplineSurfaceRecord record = bumpy(3, 8, true, 1, 0.1, 21);
+  const SplineSurface surface(record);
+  const BSplineSurface exact(record);
+  Random random(9);
+  for (int i = 0; i < 400; ++i) {
+    const double t = random.uniform(), e = 1e-4 * random.symmetric();
+    const Vec3 on =
+        exact.origin() + (i % 2 ? exact.point(t, i % 4 < 2 ? 0 : 1) : exact.point(i % 4 < 2 ? 0 : 1, t));
+    const Vec3 p = on + Vec3{e, e * random.symmetric(), 0.01 * random.symmetric()};
+    const Vec3 q = surface.project(p);
+    CHECK(distance(surface.project(q), q) < 1e-11);
+    CHECK(distance(p, q) <= distance(p, on));
+  }
+}
+
 TEST_CASE("two sheets of one surface close together: the nearer one") {
   // A hairpin: there and back at distance 0.02.
   SplineSurfaceRecord pin;
@@ -300,6 +316,7 @@ TEST_CASE("impossible splines are refused") {
   CHECK(broken([](auto& s) { s.knots_v.assign(s.knots_v.size(), 1); }));
   CHECK(broken([](auto& s) { s.weights[3] = 0; }));
   CHECK(broken([](auto& s) { s.weights.pop_back(); }));
+  CHECK_FALSE(broken([](auto& s) { s.weights.assign(s.weights.size(), 0); }));
   CHECK(broken([](auto& s) { s.poles[3].x = std::nan(""); }));
   CHECK(broken([](auto& s) { s.u1 = s.u0; }));
   Plc plc = box();
