@@ -63,11 +63,14 @@ class TriangulationBuilder {
 
   // Tetrahedron 0 = vertices 0..3 and its four ghosts.
   void start() {
-    t_.corners_ = {{0, 1, 2, 3}};
-    for (const auto& f : kFaceCorners) t_.corners_.push_back({f[0], f[2], f[1], Triangulation::ghost});
-    t_.neighbours_.resize(5);
-    t_.tags_.resize(5);
-    t_.flags_.resize(5);
+    t_.reserve_slots(7 * points_.size() + 64);
+    t_.slots_.next = 5;
+    t_.corners_[0] = {0, 1, 2, 3};
+    for (int i = 0; i < 4; ++i) {
+      const auto& f = kFaceCorners[i];
+      t_.corners_[i + 1] = {f[0], f[2], f[1], Triangulation::ghost};
+    }
+    for (int i = 0; i < 5; ++i) t_.tags_[i] = 0, t_.flags_[i] = 0;
     for (int i = 0; i < 4; ++i) {
       t_.neighbours_[0][i] = 4 * (i + 1) + 3;
       t_.neighbours_[i + 1][3] = i;
@@ -86,8 +89,9 @@ class TriangulationBuilder {
     const Index number = t_.numbers_[vertex];
     const Index start = t_.walk(p, hint);
     if (start < 0) return hint;
-    t_.search(p, number, start, false, cavity);
-    t_.fill(vertex, cavity);
+    t_.search<false>(p, number, start, cavity);
+    t_.reserve_slots(cavity.border.size());
+    t_.fill(vertex, cavity, t_.slots_);
     return cavity.created[0];
   }
 
@@ -97,10 +101,11 @@ class TriangulationBuilder {
     for (Index v = 0; v < t_.vertex_count(); ++v) vertex_tet[t_.numbers_[v] + 1] = t_.vertex_tet_[v + 1];
     t_.vertex_tet_.swap(vertex_tet);
     t_.points_.assign(points_.begin(), points_.end());
-    for (Tet& tet : t_.corners_)
-      for (Index& v : tet)
+    for (Index tet = 0; tet < t_.slot_count(); ++tet)
+      for (Index& v : t_.corners_[tet])
         if (v >= 0) v = t_.numbers_[v];
     t_.numbers_ = {};
+    t_.resize_slots(t_.slots_.next);
   }
 
   Triangulation& t_;

@@ -16,52 +16,46 @@ namespace {
 }  // namespace
 
 void Triangulation::check(bool exact_delaunay) const {
-  std::vector<bool> used(points_.size(), false);
-  for (Index t = 0; t < slot_count(); ++t) {
-    if (is_free(t)) continue;
-    const Tet& c = corners_[t];
-    const std::string name = "tetrahedron " + std::to_string(t);
-    if (flags_[t] & kStamps) broken("stamp", name + " has a stamp left behind");
-    for (int i = 0; i < 4; ++i) {
-      const bool ghost_allowed = i == 3;
-      if (c[i] >= vertex_count() || c[i] < (ghost_allowed ? ghost : 0))
-        broken("corner", name + " has no such corner");
-      for (int j = 0; j < i; ++j)
-        if (c[i] == c[j]) broken("corner", name + " has a corner twice");
-      if (c[i] >= 0) used[c[i]] = true;
-      const Face face = neighbours_[t][i];
-      const Index n = face >> 2;
-      if (face < 0 || n >= slot_count() || is_free(n)) broken("neighbour", name + " has no such neighbour");
-      if (neighbours_[n][face & 3] != 4 * t + i)
-        broken("neighbour", name + " is not its neighbour's neighbour");
-      const Tet& d = corners_[n];
-      const auto *f = kFaceCorners[i], *g = kFaceCorners[face & 3];
-      std::array<Index, 3> mine = {c[f[0]], c[f[1]], c[f[2]]}, other = {d[g[2]], d[g[1]], d[g[0]]};
-      std::rotate(mine.begin(), std::min_element(mine.begin(), mine.end()), mine.end());
-      std::rotate(other.begin(), std::min_element(other.begin(), other.end()), other.end());
-      if (mine != other) broken("neighbour", name + " and its neighbour do not share a face");
-    }
-    const Index inner = is_ghost(t) ? neighbours_[t][3] >> 2 : t;
-    if (!is_ghost(t) && orient3d(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]) <= 0)
-      broken("orientation", name + " is not positively oriented", points_[c[0]]);
-    if (is_ghost(inner)) broken("ghost", name + " is a ghost behind a ghost");
-  }
-  check_vertices(used);
+  for (Index t = 0; t < slot_count(); ++t)
+    if (!is_free(t)) check_tetrahedron(t);
+  check_vertices();
   if (exact_delaunay) check_delaunay();
 }
 
-void Triangulation::check_vertices(const std::vector<bool>& used) const {
+void Triangulation::check_tetrahedron(Index t) const {
+  const Tet& c = corners_[t];
+  const std::string name = "tetrahedron " + std::to_string(t);
+  if (flags_[t] & kStamps) broken("stamp", name + " has a stamp left behind");
+  for (int i = 0; i < 4; ++i) {
+    if (c[i] >= vertex_count() || c[i] < (i == 3 ? ghost : 0)) broken("corner", name + " has no such corner");
+    for (int j = 0; j < i; ++j)
+      if (c[i] == c[j]) broken("corner", name + " has a corner twice");
+    if (c[i] >= 0 && vertex_tet(c[i]) < 0) broken("vertex", "a corner of " + name + " has no tetrahedron");
+    const Face face = neighbours_[t][i];
+    const Index n = face >> 2;
+    if (face < 0 || n >= slot_count() || is_free(n)) broken("neighbour", name + " has no such neighbour");
+    if (neighbours_[n][face & 3] != 4 * t + i)
+      broken("neighbour", name + " is not its neighbour's neighbour");
+    if (is_ghost(t) && i == 3 && is_ghost(n)) broken("ghost", name + " is a ghost behind a ghost");
+    const Tet& d = corners_[n];
+    const auto *f = kFaceCorners[i], *g = kFaceCorners[face & 3];
+    Triangle mine = {c[f[0]], c[f[1]], c[f[2]]}, other = {d[g[2]], d[g[1]], d[g[0]]};
+    std::rotate(mine.begin(), std::min_element(mine.begin(), mine.end()), mine.end());
+    std::rotate(other.begin(), std::min_element(other.begin(), other.end()), other.end());
+    if (mine != other) broken("neighbour", name + " and its neighbour do not share a face");
+  }
+  if (!is_ghost(t) && orient3d(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]) <= 0)
+    broken("orientation", name + " is not positively oriented", points_[c[0]]);
+}
+
+void Triangulation::check_vertices() const {
   if (vertex_tet_.size() != points_.size() + 1) broken("vertex", "the list of vertices has a wrong length");
   for (Index v = 0; v < vertex_count(); ++v) {
     const Index t = vertex_tet(v);
-    const std::string name = "vertex " + std::to_string(v);
-    if (t < 0) {
-      if (used[v]) broken("vertex", name + " has no tetrahedron", points_[v]);
-      continue;
-    }
+    if (t < 0) continue;
     if (t >= slot_count() || is_free(t) ||
         std::find(corners_[t].begin(), corners_[t].end(), v) == corners_[t].end())
-      broken("vertex", name + " is no corner of its tetrahedron", points_[v]);
+      broken("vertex", "vertex " + std::to_string(v) + " is no corner of its tetrahedron", points_[v]);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "base/random.h"
@@ -9,49 +10,48 @@
 namespace dm {
 namespace {
 
-constexpr int kBits = 21;
-constexpr Index kSmallestRound = 1000;  // below this a finer split into rounds gains nothing
-constexpr Index kSmallGroup = 16;       // points in one cell of the curve that may stay in any order
+constexpr int kBits = kHilbertBits;
+constexpr Index kSmallestRound = 1000;   // below this a finer split into rounds gains nothing
+constexpr std::size_t kSmallGroup = 16;  // points in one cell of the curve that may stay in any order
 
 struct Keyed {
-  std::uint64_t code;
+  std::uint32_t code;
   Index point;
 };
 
-// The next 3 bits of the position for every state and octant, by following Skilling's transform one level.
-// Bit 0..2 of an octant are x, y, z.
-std::uint64_t skilling(std::array<std::uint32_t, 3> x) {
-  for (std::uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
-    const std::uint32_t p = q - 1;
-    for (auto& xi : x) {
-      if (xi & q) {
-        x[0] ^= p;
-      } else {
-        const std::uint32_t t = (x[0] ^ xi) & p;
-        x[0] ^= t, xi ^= t;
+// Hamilton's form of the curve: a cell is entered at its corner `e` and crossed along axis `d`, 24 states.
+struct Step {
+  std::uint8_t next, digit;
+};
+constexpr unsigned rotate_left3(unsigned b, unsigned k) { return ((b << k % 3) | (b >> (3 - k % 3))) & 7; }
+constexpr std::array<Step, 24 * 8> make_steps() {
+  std::array<Step, 24 * 8> steps{};
+  for (unsigned e = 0; e < 8; ++e)
+    for (unsigned d = 0; d < 3; ++d)
+      for (unsigned octant = 0; octant < 8; ++octant) {
+        const unsigned gray = rotate_left3(octant ^ e, 3 - (d + 1) % 3);
+        const unsigned digit = gray ^ (gray >> 1) ^ (gray >> 2);
+        const unsigned even = digit == 0 ? 0 : (digit - 1) / 2 * 2;
+        const unsigned entry = even ^ (even >> 1);
+        const unsigned ones = digit == 0 ? 0 : std::countr_one(digit % 2 == 0 ? digit - 1 : digit);
+        const unsigned next_e = e ^ rotate_left3(entry, d + 1), next_d = (d + ones + 1) % 3;
+        steps[8 * (3 * e + d) + octant] = {static_cast<std::uint8_t>(3 * next_e + next_d),
+                                           static_cast<std::uint8_t>(digit)};
       }
-    }
-  }
-  x[1] ^= x[0], x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1)
-    if (x[2] & q) t ^= q - 1;
-  std::uint64_t code = 0;
-  for (int bit = kBits - 1; bit >= 0; --bit)
-    for (const auto xi : x) code = code << 1 | ((xi ^ t) >> bit & 1);
-  return code;
+  return steps;
 }
+constexpr std::array<Step, 24 * 8> kSteps = make_steps();
 
 // Codes within the bounding cube of these points.
 void set_codes(std::span<const Vec3> points, std::span<Keyed> keyed) {
   Vec3 low = points[keyed[0].point], high = low;
-  for (const Keyed& k : keyed)
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], points[k.point][i]);
-      high[i] = std::max(high[i], points[k.point][i]);
-    }
+  for (const Keyed& k : keyed) {
+    const Vec3& p = points[k.point];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
   const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  const double scale = side > 0 ? ((1 << kBits) - 1) / side : 0;
+  const double scale = side > 1e-280 ? (1 << kBits) * (1 - 0x1.0p-40) / side : 0;
   for (Keyed& k : keyed) {
     const Vec3 q = scale * (points[k.point] - low);
     k.code = hilbert_code(static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y),
@@ -59,22 +59,50 @@ void set_codes(std::span<const Vec3> points, std::span<Keyed> keyed) {
   }
 }
 
-void sort_along_curve(std::span<const Vec3> points, std::span<Keyed> keyed) {
+// Stable radix sort by code.
+void sort_by_code(std::span<Keyed> keyed, std::vector<Keyed>& scratch) {
+  constexpr int digit_bits = 10;
+  constexpr std::uint32_t buckets = 1u << digit_bits;
+  if (keyed.size() < buckets) {
+    std::stable_sort(keyed.begin(), keyed.end(),
+                     [](const Keyed& a, const Keyed& b) { return a.code < b.code; });
+    return;
+  }
+  for (int shift = 0; shift < 3 * kBits; shift += digit_bits) {
+    std::array<Index, buckets> at{};
+    for (const Keyed& k : keyed) ++at[k.code >> shift & (buckets - 1)];
+    Index sum = 0;
+    for (Index& a : at) sum += std::exchange(a, sum);
+    scratch.resize(keyed.size());
+    for (const Keyed& k : keyed) scratch[at[k.code >> shift & (buckets - 1)]++] = k;
+    std::copy(scratch.begin(), scratch.end(), keyed.begin());
+  }
+}
+
+void sort_along_curve(std::span<const Vec3> points, std::span<Keyed> keyed, std::vector<Keyed>& scratch) {
   if (keyed.size() < 2) return;
   set_codes(points, keyed);
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return std::pair(a.code, a.point) < std::pair(b.code, b.point);
-  });
+  sort_by_code(keyed, scratch);
   if (keyed.front().code == keyed.back().code) return;
   for (std::size_t i = 0, j; i < keyed.size(); i = j) {  // tight clusters: again at their own scale
     for (j = i + 1; j < keyed.size() && keyed[j].code == keyed[i].code;) ++j;
-    if (j - i > kSmallGroup) sort_along_curve(points, keyed.subspan(i, j - i));
+    if (j - i > kSmallGroup) sort_along_curve(points, keyed.subspan(i, j - i), scratch);
   }
 }
 
 }  // namespace
 
-std::uint64_t hilbert_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) { return skilling({x, y, z}); }
+std::uint32_t hilbert_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  std::uint32_t code = 0;
+  unsigned state = 0;
+  for (int bit = kBits - 1; bit >= 0; --bit) {
+    const unsigned octant = (x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2;
+    const Step step = kSteps[8 * state + octant];
+    code = code << 3 | step.digit;
+    state = step.next;
+  }
+  return code;
+}
 
 InsertionOrder insertion_order(std::span<const Vec3> points) {
   const Index n = static_cast<Index>(points.size());
@@ -82,18 +110,21 @@ InsertionOrder insertion_order(std::span<const Vec3> points) {
   int rounds = 1;
   for (Index left = n; left > kSmallestRound; left /= 8) ++rounds;
   std::vector<std::vector<Keyed>> round(rounds);
+  round.back().reserve(n - n / 9);
   for (Index i = 0; i < n; ++i) {
-    std::uint64_t draw = Random(0x42524930, i).next();
+    std::uint64_t draw = Random(0x4252494f, i).next();
     int r = rounds - 1;
     while (r > 0 && (draw & 7) == 0) draw >>= 3, --r;
     round[r].push_back({0, i});
   }
   InsertionOrder result;
   result.order.reserve(n);
+  std::vector<Keyed> scratch;
   for (auto& points_of_round : round) {
     result.rounds.push_back(static_cast<Index>(result.order.size()));
-    sort_along_curve(points, points_of_round);
+    sort_along_curve(points, points_of_round, scratch);
     for (const Keyed& k : points_of_round) result.order.push_back(k.point);
+    points_of_round = {};
   }
   result.rounds.push_back(n);
   return result;

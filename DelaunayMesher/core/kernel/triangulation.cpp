@@ -15,9 +15,9 @@ void Triangulation::set_marked(Index tet, int i, bool on) {
 }
 
 std::size_t Triangulation::bytes() const {
-  const auto held = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  const auto held = [](const auto& array) { return array.size() * sizeof(array[0]); };
   return held(points_) + held(corners_) + held(neighbours_) + held(tags_) + held(flags_) + held(vertex_tet_) +
-         held(free_) + held(numbers_);
+         held(slots_.free) + held(numbers_);
 }
 
 // Four corners and p on one sphere.  Every vertex is lifted by an infinitesimal, the larger the number the
@@ -38,10 +38,20 @@ bool Triangulation::tie_conflict(const Tet& tet, const Vec3& p, Index number) co
   return false;
 }
 
-bool Triangulation::finite_conflict(const Tet& tet, const Vec3& p, Index number) const {
-  const int sign = insphere(points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]], p);
-  if (sign != 0) return sign > 0;
-  return tie_conflict(tet, p, number);
+// The filter could not tell.
+bool Triangulation::close_conflict(const Tet& tet, const Vec3& p, Index number) const {
+  const int sign =
+      filter::insphere_exact(points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]], p);
+  return sign != 0 ? sign > 0 : tie_conflict(tet, p, number);
+}
+
+inline bool Triangulation::finite_conflict(const Tet& tet, const Vec3& p, Index number) const {
+  const Vec3* points = points_.data();
+  const filter::Seen seen = filter::see(points[tet[0]], points[tet[1]], points[tet[2]], points[tet[3]], p);
+  const double power = seen.power();
+  if (power * power > seen.power_error2()) [[likely]]
+    return power > 0;
+  return close_conflict(tet, p, number);
 }
 
 // Outside the hull plane: conflict.  In it: conflict when inside the (perturbed) circle of the facet, which
@@ -55,182 +65,264 @@ bool Triangulation::ghost_conflict(Index tet, const Vec3& p, Index number) const
 }
 
 bool Triangulation::conflict(Index tet, const Vec3& p, Index number) const {
-  return is_ghost(tet) ? ghost_conflict(tet, p, number) : finite_conflict(corners_[tet], p, number);
+  if (is_ghost(tet)) [[unlikely]]
+    return ghost_conflict(tet, p, number);
+  return finite_conflict(corners_[tet], p, number);
 }
 
 bool Triangulation::in_conflict(Index tet, const Vec3& p) const { return conflict(tet, p, vertex_count()); }
 
 Index Triangulation::locate(const Vec3& p, Index hint) const { return walk(p, hint); }
 
-// Visibility walk: it cannot cycle in a Delaunay triangulation, for every step lowers the power of p.  A
-// tetrahedron that contains p and has it for no corner is in conflict, so the walk ends.
+// Visibility walk: it cannot cycle in a Delaunay triangulation, for every step lowers the power of p.  It may
+// stop at the first tetrahedron in conflict; one that contains p and has it for no corner is, so it ends.
 Index Triangulation::walk(const Vec3& p, Index hint) const {
   Index tet = is_ghost(hint) ? neighbours_[hint][3] >> 2 : hint;
-  Face entered = -1;
-  for (;;) {
-    if (is_ghost(tet)) return tet;
+  int entered = -1;
+  while (!is_ghost(tet)) {
     const Tet& c = corners_[tet];
-    const Vec3 &a = points_[c[0]], &b = points_[c[1]], &d = points_[c[2]], &e = points_[c[3]];
-    const filter::Seen seen = filter::see(a, b, d, e, p);
+    const std::array<const Vec3*, 4> corner = {&points_[c[0]], &points_[c[1]], &points_[c[2]],
+                                               &points_[c[3]]};
+    const filter::Seen seen = filter::see(*corner[0], *corner[1], *corner[2], *corner[3], p);
     const double power = seen.power();
     if (power > 0 && power * power > seen.power_error2()) return tet;
     const double error2 = seen.volume_error2();
     int out = -1;
     double lowest = 0;
-    for (int i = 0; i < 4; ++i)
-      if (seen.volume[i] < lowest && 4 * tet + i != entered && seen.volume[i] * seen.volume[i] > error2)
-        lowest = seen.volume[i], out = i;
-    if (out < 0) {
-      const std::array<const Vec3*, 4> corner = {&a, &b, &d, &e};
-      for (int i = 0; i < 4 && out < 0; ++i) {
-        if (seen.volume[i] * seen.volume[i] > error2 || 4 * tet + i == entered) continue;
-        auto replaced = corner;
-        replaced[i] = &p;
-        if (orient3d(*replaced[0], *replaced[1], *replaced[2], *replaced[3]) < 0) out = i;
-      }
+    for (int i = 0; i < 4; ++i) {
+      const double v = seen.volume[i];
+      if (v < lowest && i != entered && v * v > error2) lowest = v, out = i;
+    }
+    for (int i = 0; i < 4 && out < 0; ++i) {
+      if (seen.volume[i] * seen.volume[i] > error2 || i == entered) continue;
+      auto replaced = corner;
+      replaced[i] = &p;
+      if (orient3d(*replaced[0], *replaced[1], *replaced[2], *replaced[3]) < 0) out = i;
     }
     if (out < 0) {
-      if (a == p || b == p || d == p || e == p) return -1;
+      for (const Vec3* q : corner)
+        if (*q == p) return -1;
       return tet;
     }
-    entered = neighbours_[tet][out];
-    tet = entered >> 2;
+    const Face face = neighbours_[tet][out];
+    tet = face >> 2;
+    entered = face & 3;
   }
+  return tet;
 }
 
 Face Triangulation::find_cavity(const Vec3& p, Index start, bool stop_at_marks, Cavity& cavity) const {
   cavity.tets.clear();
   cavity.border.clear();
+  cavity.outside.clear();
   if (!in_conflict(start, p)) return -1;
-  return search(p, vertex_count(), start, stop_at_marks, cavity);
+  return stop_at_marks ? search<true>(p, vertex_count(), start, cavity)
+                       : search<false>(p, vertex_count(), start, cavity);
 }
 
-// Depth-first search over the tetrahedra in conflict.  cavity.created holds the tetrahedra found outside,
-// whose stamps have to be removed.
-Face Triangulation::search(const Vec3& p, Index number, Index start, bool stop_at_marks,
-                           Cavity& cavity) const {
-  cavity.tets.clear();
-  cavity.border.clear();
-  cavity.created.clear();
-  cavity.tets.push_back(start);
-  flags_[start] |= kInside;
+// Search over the tetrahedra in conflict, breadth first: cavity.tets is the queue.  The arrays of the cavity
+// are kept longer than needed while it runs, so that the loop writes through plain pointers.
+template <bool kStopAtMarks>
+Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cavity) const {
+  std::size_t room = 0, inside = 1, border = 0;
+  Index* tets = nullptr;
+  Face *border_faces = nullptr, *outside_faces = nullptr;
+  const auto make_room = [&](std::size_t size) {
+    room = size;
+    cavity.tets.resize(room);
+    cavity.border.resize(room);
+    cavity.outside.resize(room);
+    tets = cavity.tets.data(), border_faces = cavity.border.data(), outside_faces = cavity.outside.data();
+  };
+  make_room(std::max<std::size_t>(cavity.tets.capacity(), 64));
+  const Tet* corners = corners_.data();
+  const std::array<Face, 4>* neighbours = neighbours_.data();
+  std::uint8_t* flags = flags_.data();
+  tets[0] = start;
+  flags[start] |= kInside;
   Face stopped = -1;
-  for (std::size_t done = 0; done < cavity.tets.size() && stopped < 0; ++done) {
-    const Index tet = cavity.tets[done];
+  for (std::size_t done = 0; done < inside && stopped < 0; ++done) {
+    if (std::max(inside, border) + 4 > room) make_room(2 * room);
+    const Index tet = tets[done];
     for (int i = 0; i < 4; ++i) {
-      const Index next = neighbours_[tet][i] >> 2;
-      std::uint8_t& flags = flags_[next];
-      if ((flags & kStamps) == 0) {
-        if (conflict(next, p, number)) {
-          flags |= kInside;
-          cavity.tets.push_back(next);
-        } else {
-          flags |= kOutside;
-          cavity.created.push_back(next);
-        }
+      const Face face = neighbours[tet][i];
+      const Index next = face >> 2;
+      unsigned stamp = flags[next] & kStamps;
+      if (stamp == 0) {
+        const Tet& c = corners[next];
+        const bool hit = c[3] == ghost ? ghost_conflict(next, p, number) : finite_conflict(c, p, number);
+        stamp = hit ? kInside : kOutside;
+        flags[next] = static_cast<std::uint8_t>(flags[next] | stamp);
+        if (stamp == kInside) tets[inside++] = next;
       }
-      if (flags & kOutside) {
-        cavity.border.push_back(4 * tet + i);
-      } else if (stop_at_marks && marked(tet, i)) {
+      if (stamp == kOutside) {
+        border_faces[border] = 4 * tet + i;
+        outside_faces[border++] = face;
+      } else if (kStopAtMarks && (flags[tet] >> i & 1)) {
         stopped = 4 * tet + i;
         break;
       }
     }
   }
-  for (const Index tet : cavity.tets) flags_[tet] &= 15;
-  for (const Index tet : cavity.created) flags_[tet] &= 15;
-  cavity.created.clear();
+  cavity.tets.resize(inside);
+  cavity.border.resize(border);
+  cavity.outside.resize(border);
+  for (const Index tet : cavity.tets) flags[tet] &= 15;
+  for (const Face face : cavity.outside) flags[face >> 2] &= 15;
   return stopped;
+}
+template Face Triangulation::search<false>(const Vec3&, Index, Index, Cavity&) const;
+
+void Triangulation::reserve_slots(std::size_t wanted) {
+  if (!slots_.enough(wanted))
+    resize_slots(std::max(slots_.next + wanted, corners_.size() + corners_.size() / 4));
+}
+
+void Triangulation::resize_slots(std::size_t size) {
+  corners_.resize(size);
+  neighbours_.resize(size);
+  tags_.resize(size);
+  flags_.resize(size);
+  slots_.end = static_cast<Index>(size);
 }
 
 Index Triangulation::insert(const Vec3& p, Cavity& cavity) {
   const Index vertex = vertex_count();
   points_.push_back(p);
   vertex_tet_.push_back(-1);
-  fill(vertex, cavity);
+  reserve_slots(cavity.border.size());
+  fill(vertex, cavity, slots_);
   return vertex;
 }
 
 // Replaces the cavity by the star of `vertex`.
-void Triangulation::fill(Index vertex, Cavity& cavity) {
-  struct Made {
-    Tet corners;
-    Face outside;
-    std::uint16_t tag;
-    std::uint8_t marks;
-  };
-  std::vector<Made> made;
-  const std::size_t count = cavity.border.size();
-  made.reserve(count);
-  for (const Face face : cavity.border) {
-    const Index tet = face >> 2;
-    const int i = face & 3;
-    const Tet& c = corners_[tet];
-    const int* f = kFaceCorners[i];
-    Made m{{c[f[0]], c[f[1]], c[f[2]], vertex}, neighbours_[tet][i], tags_[tet], 0};
-    if (is_ghost(tet) && i != 3) {  // turn the ghost to corner 3, the vertex to corner 2
-      const int g = i == 1 ? 2 : 1;
-      m.corners = {m.corners[(g + 2) % 3], m.corners[(g + 1) % 3], vertex, ghost};
-    }
-    if (flags_[tet] >> i & 1) m.marks = static_cast<std::uint8_t>(is_ghost(tet) && i != 3 ? 4 : 8);
-    made.push_back(m);
-  }
+void Triangulation::fill(Index vertex, Cavity& cavity, Slots& slots) {
+  const std::size_t count = cavity.border.size(), old = cavity.tets.size();
+  const int corner_count = collect(vertex, cavity);
   cavity.created.resize(count);
-  std::size_t used = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    Index slot;
-    if (used < cavity.tets.size()) {
-      slot = cavity.tets[used++];
-    } else if (!free_.empty()) {
-      slot = free_.back();
-      free_.pop_back();
-    } else {
-      slot = slot_count();
-      corners_.emplace_back();
-      neighbours_.emplace_back();
-      tags_.emplace_back();
-      flags_.emplace_back();
-    }
-    cavity.created[k] = slot;
+  for (std::size_t k = 0; k < count; ++k) cavity.created[k] = k < old ? cavity.tets[k] : slots.take();
+  for (std::size_t k = count; k < old; ++k) {
+    corners_[cavity.tets[k]].fill(free_slot);
+    slots.free.push_back(cavity.tets[k]);
   }
-  for (; used < cavity.tets.size(); ++used) {
-    corners_[cavity.tets[used]].fill(free_slot);
-    free_.push_back(cavity.tets[used]);
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index tet = cavity.created[k];
-    const Made& m = made[k];
-    corners_[tet] = m.corners;
-    tags_[tet] = m.tag;
-    flags_[tet] = m.marks;
-    const Face face = 4 * tet + (m.corners[3] == ghost ? 2 : 3);
-    neighbours_[tet][face & 3] = m.outside;
-    neighbours_[m.outside >> 2][m.outside & 3] = face;
-  }
-  link(cavity);
+  if (corner_count <= kLocalCorners)
+    link(cavity);
+  else
+    link_many(cavity);
+  vertex_tet_[vertex + 1] = cavity.created[0];
 }
 
-// Neighbours of the created tetrahedra among themselves: the two on an edge of the border meet in the
-// triangle of that edge and the new vertex.
-void Triangulation::link(const Cavity& cavity) {
+// Reads what stands behind the border faces, before the slots are filled again, and numbers the corners of
+// the border: vertex_tet_ holds ~number until link() sets it again.  Returns how many numbers there are.
+int Triangulation::collect(Index vertex, Cavity& cavity) {
+  const std::size_t count = cavity.border.size();
+  cavity.made.resize(count);
+  Index* vertex_tet = vertex_tet_.data() + 1;
+  Index next = 1;  // 0 is the ghost's
+  const auto local = [&](Index v) {
+    if (v < 0) [[unlikely]]
+      return std::uint16_t{0};
+    const Index at = vertex_tet[v];
+    const bool fresh = at >= 0;
+    const Index number = fresh ? next : ~at;
+    vertex_tet[v] = ~number;
+    next += fresh;
+    return static_cast<std::uint16_t>(number);
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index tet = cavity.border[k] >> 2;
+    const int i = cavity.border[k] & 3;
+    const Tet& c = corners_[tet];
+    const int* f = kFaceCorners[i];
+    Tet v = {c[f[0]], c[f[1]], c[f[2]], vertex};
+    const unsigned mark = flags_[tet] >> i & 1u;
+    Cavity::Made& m = cavity.made[k];
+    m.tag = tags_[tet];
+    if (c[3] == ghost && i != 3) [[unlikely]] {  // turn the ghost to the end
+      if (i == 1)
+        v = {v[0], v[1], ghost, vertex};
+      else
+        v = {v[2], v[0], ghost, vertex};
+      m.corners = {v[1], v[0], vertex, ghost};
+      m.marks = static_cast<std::uint8_t>(mark << 2);
+    } else {
+      m.corners = v;
+      m.marks = static_cast<std::uint8_t>(mark << 3);
+    }
+    m.local = {local(v[0]), local(v[1]), local(v[2])};
+  }
+  return next;
+}
+
+// Fills the slots.  Neighbours among the created: each border edge has a face on either side, which sees it
+// in opposite direction; the table holds, at [from][to], the new triangle of that edge and the vertex.
+void Triangulation::link(Cavity& cavity) {
+  const std::size_t count = cavity.created.size();
+  cavity.edge_faces.resize(kLocalCorners * kLocalCorners);
+  Face* edge = cavity.edge_faces.data();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Cavity::Made& m = cavity.made[k];
+    const auto [a, b, c] = m.local;
+    const auto opposite = opposite_corners(m.corners);
+    const Face face = 4 * cavity.created[k];
+    edge[kLocalCorners * b + c] = face + opposite[0];
+    edge[kLocalCorners * c + a] = face + opposite[1];
+    edge[kLocalCorners * a + b] = face + opposite[2];
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Cavity::Made& m = cavity.made[k];
+    const auto [a, b, c] = m.local;
+    const auto opposite = opposite_corners(m.corners);
+    std::array<Face, 4>& neighbours = place(cavity, k);
+    neighbours[opposite[0]] = edge[kLocalCorners * c + b];
+    neighbours[opposite[1]] = edge[kLocalCorners * a + c];
+    neighbours[opposite[2]] = edge[kLocalCorners * b + a];
+  }
+}
+
+// The corners that lie opposite the three edges of the border face, and the new vertex.
+inline std::array<std::uint8_t, 4> Triangulation::opposite_corners(const Tet& corners) {
+  if (corners[3] == ghost) [[unlikely]]
+    return {1, 0, 3, 2};
+  return {0, 1, 2, 3};
+}
+
+// Writes created[k] but for the neighbours among the created, which it returns for the caller to fill in.
+inline std::array<Face, 4>& Triangulation::place(const Cavity& cavity, std::size_t k) {
+  const Cavity::Made& m = cavity.made[k];
+  const Index tet = cavity.created[k];
+  const int apex = opposite_corners(m.corners)[3];
+  corners_[tet] = m.corners;
+  tags_[tet] = m.tag;
+  flags_[tet] = m.marks;
+  const Face outside = cavity.outside[k];
+  neighbours_[tet][apex] = outside;
+  neighbours_[outside >> 2][outside & 3] = 4 * tet + apex;
+  for (int j = 0; j < 4; ++j)
+    if (j != apex && m.corners[j] != ghost) vertex_tet_[m.corners[j] + 1] = tet;
+  return neighbours_[tet];
+}
+
+// As link(), for cavities with more corners than the table has: by sorting the edges.
+void Triangulation::link_many(Cavity& cavity) {
   std::vector<std::pair<std::array<Index, 2>, Face>> edges;
   edges.reserve(3 * cavity.created.size());
-  for (const Index tet : cavity.created) {
-    const Tet& c = corners_[tet];
-    const int apex = c[3] == ghost ? 2 : 3;
+  for (std::size_t k = 0; k < cavity.created.size(); ++k) {
+    place(cavity, k);
+    const Tet& corners = cavity.made[k].corners;
+    const int apex = opposite_corners(corners)[3];
     for (int i = 0; i < 4; ++i) {
       if (i == apex) continue;
       std::array<Index, 2> edge{};
       int n = 0;
       for (int j = 0; j < 4; ++j)
-        if (j != i && j != apex) edge[n++] = c[j];
+        if (j != i && j != apex) edge[n++] = corners[j];
       if (edge[0] > edge[1]) std::swap(edge[0], edge[1]);
-      edges.push_back({edge, 4 * tet + i});
+      edges.push_back({edge, 4 * cavity.created[k] + i});
     }
-    for (const Index v : c) vertex_tet_[v + 1] = tet;
   }
   std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 0; k + 1 < edges.size(); k += 2) {
+  for (std::size_t k = 0; k < edges.size(); k += 2) {
     const Face f = edges[k].second, g = edges[k + 1].second;
     neighbours_[f >> 2][f & 3] = g;
     neighbours_[g >> 2][g & 3] = f;

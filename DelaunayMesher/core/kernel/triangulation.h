@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "kernel/array.h"
 
 namespace dm {
 
@@ -37,8 +38,35 @@ inline constexpr int kFaceCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 
 struct Cavity {
   std::vector<Index> tets;     // in conflict with the site
   std::vector<Face> border;    // faces of cavity tets whose neighbour is not in conflict
+  std::vector<Face> outside;   // outside[k]: the neighbour's face that touches border[k]
   std::vector<Index> created;  // after insert(): created[k] stands on border[k], corner 3 = the new vertex
                                // (ghosts: the ghost is corner 3 and the new vertex corner 2)
+
+  // Scratch of insert(): what stands on a border face, and its corners' numbers within the cavity.
+  struct Made {
+    Tet corners;
+    std::array<std::uint16_t, 3> local;
+    std::uint16_t tag;
+    std::uint8_t marks;
+  };
+  std::vector<Made> made;
+  std::vector<Face> edge_faces;
+};
+
+// The slots that a thread may fill: first the free ones (last in, first out), then next .. end - 1.
+struct Slots {
+  std::vector<Index> free;
+  Index next = 0, end = 0;
+
+  Index take() {
+    if (free.empty()) return next++;
+    const Index slot = free.back();
+    free.pop_back();
+    return slot;
+  }
+  bool enough(std::size_t wanted) const {
+    return wanted <= free.size() + static_cast<std::size_t>(end - next);
+  }
 };
 
 class Triangulation {
@@ -55,7 +83,7 @@ class Triangulation {
   const Vec3& point(Index vertex) const { return points_[vertex]; }
   const std::vector<Vec3>& points() const { return points_; }
   // Slots, free ones included: 0 .. slot_count() - 1.
-  Index slot_count() const { return static_cast<Index>(corners_.size()); }
+  Index slot_count() const { return slots_.next; }
   bool is_free(Index tet) const { return corners_[tet][0] == free_slot; }
   bool is_ghost(Index tet) const { return corners_[tet][3] == ghost; }
   const Tet& corners(Index tet) const { return corners_[tet]; }
@@ -97,29 +125,37 @@ class Triangulation {
   static constexpr Index free_slot = -2;
   // flags_: bits 0-3 the marks, bits 4 and 5 the stamps of find_cavity, which leaves none behind.
   static constexpr std::uint8_t kInside = 16, kOutside = 32, kStamps = kInside | kOutside;
+  static constexpr int kLocalCorners = 64;  // corners of a cavity that link() can number in its table
 
-  Triangulation() = default;
   bool conflict(Index tet, const Vec3& p, Index number) const;
-  bool finite_conflict(const Tet& tet, const Vec3& p, Index number) const;
   bool ghost_conflict(Index tet, const Vec3& p, Index number) const;
+  bool finite_conflict(const Tet& tet, const Vec3& p, Index number) const;
+  bool close_conflict(const Tet& tet, const Vec3& p, Index number) const;
   bool tie_conflict(const Tet& tet, const Vec3& p, Index number) const;
   Index walk(const Vec3& p, Index hint) const;
-  Face search(const Vec3& p, Index number, Index start, bool stop_at_marks, Cavity& cavity) const;
-  void fill(Index vertex, Cavity& cavity);
-  void link(const Cavity& cavity);
-  void check_vertices(const std::vector<bool>& used) const;
+  template <bool kStopAtMarks>
+  Face search(const Vec3& p, Index number, Index start, Cavity& cavity) const;
+  void reserve_slots(std::size_t wanted);
+  void resize_slots(std::size_t size);
+  void fill(Index vertex, Cavity& cavity, Slots& slots);
+  int collect(Index vertex, Cavity& cavity);
+  void link(Cavity& cavity);
+  std::array<Face, 4>& place(const Cavity& cavity, std::size_t k);
+  static std::array<std::uint8_t, 4> opposite_corners(const Tet& corners);
+  void link_many(Cavity& cavity);
+  void check_tetrahedron(Index tet) const;
+  void check_vertices() const;
   void check_delaunay() const;
   Index number_of(Index vertex) const { return numbers_.empty() ? vertex : numbers_[vertex]; }
 
   std::vector<Vec3> points_;
-  std::vector<Tet> corners_;
-  std::vector<std::array<Face, 4>> neighbours_;
-  std::vector<std::uint16_t> tags_;
-  mutable std::vector<std::uint8_t> flags_;
+  Array<Tet> corners_;
+  Array<std::array<Face, 4>> neighbours_;
+  Array<std::uint16_t> tags_;
+  mutable Array<std::uint8_t> flags_;
   std::vector<Index> vertex_tet_;  // entry 0 is the ghost's
-  std::vector<Index> free_;        // free slots, the last one is used first
-  std::vector<Index> numbers_;     // while building: the caller's number of a vertex; afterwards empty
-  std::vector<Index> edge_table_;  // scratch of link()
+  Slots slots_;
+  std::vector<Index> numbers_;  // while building: the caller's number of a vertex; afterwards empty
 };
 
 }  // namespace dm
