@@ -7,6 +7,7 @@ namespace dm {
 namespace {
 
 constexpr int max_count = max_spline_degree + 1;
+constexpr double coincide = 1e-7;  // of the size, between the ends of a closed spline
 
 bool finite(double x) { return std::isfinite(x); }
 
@@ -39,12 +40,19 @@ std::string pole_defect(const std::vector<Vec3>& poles, const std::vector<double
   return "";
 }
 
-Vec3 middle(const std::vector<Vec3>& poles) {
-  Vec3 low = poles[0], high = poles[0];
+struct Box {
+  Vec3 low, high;
+  Vec3 middle() const { return 0.5 * (low + high); }
+  double extent() const { return distance(low, high); }
+};
+
+Box box_of(const std::vector<Vec3>& poles) {
+  Box box{poles[0], poles[0]};
   for (const Vec3& p : poles) {
-    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+    for (int k = 0; k < 3; ++k)
+      box.low[k] = std::min(box.low[k], p[k]), box.high[k] = std::max(box.high[k], p[k]);
   }
-  return 0.5 * (low + high);
+  return box;
 }
 
 std::vector<std::array<double, 4>> homogeneous(const std::vector<Vec3>& poles,
@@ -83,15 +91,22 @@ std::string defect(const SplineCurveRecord& r) {
   return found.empty() ? pole_defect(r.poles, r.weights) : found;
 }
 
-KnotVector::KnotVector(int degree, std::vector<double> knots, double first, double last)
-    : degree_(degree), knots_(std::move(knots)) {
-  const double low = knots_[degree_], high = knots_[knots_.size() - 1 - degree_];
-  const double slack = 1e-6 * (high - low);
-  if (first < low - slack || last > high + slack) first = low, last = high;
-  if (first < low + 1e-9 * (high - low)) first = low;
-  if (last > high - 1e-9 * (high - low)) last = high;
-  first_ = first, last_ = last;
-  whole_ = first == low && last == high;
+KnotVector::KnotVector(int degree, std::vector<double> knots)
+    : degree_(degree),
+      knots_(std::move(knots)),
+      first_(knots_[degree_]),
+      last_(knots_[knots_.size() - 1 - degree_]) {}
+
+bool KnotVector::holds(double first, double last) const {
+  return first >= first_ - 1e-9 * length() && last <= last_ + 1e-9 * length();
+}
+
+void KnotVector::set_range(double first, double last, bool closed) {
+  if (closed && !holds(first, last)) return;
+  const double low = first_, high = last_, near = 1e-9 * (high - low), beyond = 0.1 * (high - low);
+  if (first > high - near || last < low + near) return;
+  first_ = std::abs(first - low) < near ? low : std::max(first, low - beyond);
+  last_ = std::abs(last - high) < near ? high : std::min(last, high + beyond);
 }
 
 int KnotVector::span(double u) const {
@@ -149,9 +164,16 @@ void KnotVector::basis(double u, int at_span, int derivatives, double (*n)[max_c
 }
 
 BSplineCurve::BSplineCurve(const SplineCurveRecord& r)
-    : knots_(r.degree, r.knots, r.u0, r.u1),
-      origin_(middle(r.poles)),
-      poles_(homogeneous(r.poles, r.weights, origin_)) {}
+    : knots_(r.degree, r.knots),
+      origin_(box_of(r.poles).middle()),
+      extent_(box_of(r.poles).extent()),
+      poles_(homogeneous(r.poles, r.weights, origin_)) {
+  knots_.set_range(r.u0, r.u1, closed());
+}
+
+bool BSplineCurve::closed() const {
+  return distance(point(knots_.first()), point(knots_.last())) <= coincide * extent_;
+}
 
 Vec3 BSplineCurve::point(double t) const {
   double n[1][max_count];
@@ -180,12 +202,31 @@ CurveJet BSplineCurve::jet(double t) const {
 }
 
 BSplineSurface::BSplineSurface(const SplineSurfaceRecord& r)
-    : u_(r.degree_u, r.knots_u, r.u0, r.u1),
-      v_(r.degree_v, r.knots_v, r.v0, r.v1),
-      origin_(middle(r.poles)),
+    : u_(r.degree_u, r.knots_u),
+      v_(r.degree_v, r.knots_v),
+      origin_(box_of(r.poles).middle()),
+      extent_(box_of(r.poles).extent()),
       nv_(r.nv),
       rational_(!all_equal(r.weights)),
-      poles_(homogeneous(r.poles, r.weights, origin_)) {}
+      poles_(homogeneous(r.poles, r.weights, origin_)) {
+  const bool round_u = closed_u(), round_v = closed_v();
+  u_.set_range(r.u0, r.u1, round_u);
+  v_.set_range(r.v0, r.v1, round_v);
+}
+
+bool BSplineSurface::closed_u() const {
+  const std::vector<double> across = refine_parameters(v_.breaks(), 8, 0, nullptr);
+  return std::all_of(across.begin(), across.end(), [&](double v) {
+    return distance(point(u_.first(), v), point(u_.last(), v)) <= coincide * extent_;
+  });
+}
+
+bool BSplineSurface::closed_v() const {
+  const std::vector<double> across = refine_parameters(u_.breaks(), 8, 0, nullptr);
+  return std::all_of(across.begin(), across.end(), [&](double u) {
+    return distance(point(u, v_.first()), point(u, v_.last())) <= coincide * extent_;
+  });
+}
 
 Vec3 BSplineSurface::point(double u, double v) const {
   double nu[1][max_count], nv[1][max_count];

@@ -24,14 +24,16 @@ std::string defect(const SplineCurveRecord& record);
 // One direction's knots and the part of them in use.
 class KnotVector {
  public:
-  // [first, last] is cut to where the spline is defined; a range outside of that (a periodic one, moved by
-  // periods) stands for all of it.
-  KnotVector(int degree, std::vector<double> knots, double first, double last);
+  // The range is all that the knots define.
+  KnotVector(int degree, std::vector<double> knots);
+  // Range [first, last].  Beyond the knots' own range a closed spline comes round, so there it stands for the
+  // whole; others go on as polynomials, as CAD kernels let them, for a tenth of the range at most.
+  void set_range(double first, double last, bool closed);
+  bool holds(double first, double last) const;  // within the range, but for rounding
 
   double first() const { return first_; }
   double last() const { return last_; }
   double length() const { return last_ - first_; }
-  bool whole() const { return whole_; }  // the range is all that is defined
   int degree() const { return degree_; }
   // Index of the knot below u; the poles that count at u are [span - degree, span].
   int span(double u) const;
@@ -44,7 +46,6 @@ class KnotVector {
   int degree_;
   std::vector<double> knots_;
   double first_, last_;
-  bool whole_;
 };
 
 struct CurveJet {
@@ -61,10 +62,12 @@ class BSplineCurve {
   const Vec3& origin() const { return origin_; }
   Vec3 point(double t) const;  // relative to origin()
   CurveJet jet(double t) const;
+  bool closed() const;
 
  private:
   KnotVector knots_;
   Vec3 origin_;
+  double extent_;  // of the poles
   std::vector<std::array<double, 4>> poles_;  // times weight, weight
 };
 
@@ -76,10 +79,14 @@ class BSplineSurface {
   const Vec3& origin() const { return origin_; }
   Vec3 point(double u, double v) const;  // relative to origin()
   SurfaceJet jet(double u, double v) const;
+  // The two ends of u, or v, are one curve.
+  bool closed_u() const;
+  bool closed_v() const;
 
  private:
   KnotVector u_, v_;
   Vec3 origin_;
+  double extent_;  // of the poles
   Index nv_;
   bool rational_;
   std::vector<std::array<double, 4>> poles_;  // times weight, weight

@@ -22,8 +22,8 @@ double extent_of(const BSplineCurve& curve) {
 }  // namespace
 
 SplineCurve::SplineCurve(const SplineCurveRecord& record) : curve_(record) {
-  const double extent = extent_of(curve_), a0 = curve_.knots().first(), b0 = curve_.knots().last();
-  closed_ = distance(curve_.point(a0), curve_.point(b0)) < 1e-7 * extent;
+  const double extent = extent_of(curve_);
+  closed_ = curve_.closed();
   const auto bent = [&](double a, double b) {
     const Vec3 pa = curve_.point(a), pb = curve_.point(b);
     const double allowed = std::max(bend * distance(pa, pb), 1e-6 * extent);

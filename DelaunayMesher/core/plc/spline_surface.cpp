@@ -14,7 +14,7 @@ constexpr std::size_t max_cells = 40000;
 
 // At most `most` of the breaks, at least 5 parameters, the ends among them.
 std::vector<double> thinned(const std::vector<double>& breaks, std::size_t most) {
-  std::vector<double> all = refine_parameters(breaks, 4, 0, [](double, double) { return false; });
+  std::vector<double> all = refine_parameters(breaks, 4, 0, nullptr);
   if (all.size() <= most) return all;
   std::vector<double> chosen;
   for (std::size_t i = 0; i < most; ++i) chosen.push_back(all[i * (all.size() - 1) / (most - 1)]);
@@ -111,14 +111,7 @@ void SplineSurface::choose_lines() {
   const std::vector<double> us = thinned(ku.breaks(), max_cross_lines);
   const std::vector<double> vs = thinned(kv.breaks(), max_cross_lines);
   const double extent = extent_of(surface_, us, vs);
-  const auto apart = [&](double ua, double va, double ub, double vb) {
-    return distance(surface_.point(ua, va), surface_.point(ub, vb)) > 1e-7 * extent;
-  };
-  closed_u_ =
-      std::none_of(vs.begin(), vs.end(), [&](double v) { return apart(ku.first(), v, ku.last(), v); });
-  closed_v_ =
-      std::none_of(us.begin(), us.end(), [&](double u) { return apart(u, kv.first(), u, kv.last()); });
-
+  closed_u_ = surface_.closed_u(), closed_v_ = surface_.closed_v();
   for (double tolerance = bend;
        lines_u_.empty() || (lines_u_.size() * lines_v_.size() > max_cells && tolerance < 1); tolerance *= 2) {
     const auto bent = [&](const std::vector<double>& across, bool along_u, double a, double b) {
