@@ -2,9 +2,9 @@
 
     freecadcmd scripts/example_analysis.py
 
-Meshes the bracket, fixes its foot, pulls at its bore, solves with CalculiX through FreeCAD's own tools, and writes
-example_output/ (bracket_solved.FCStd, report.json, bracket.png).  The last line is EXAMPLE OK when all went well:
-freecadcmd's exit status says nothing.
+Meshes the bracket, fixes its foot, pulls at its bore, solves with CalculiX through FreeCAD's own tools, and
+writes example_output/ (summary.txt, report.json, bracket.png, bracket_solved.FCStd).  The last line is
+EXAMPLE OK when all went well: freecadcmd's exit status says nothing.
 """
 
 import json
@@ -16,14 +16,14 @@ import traceback
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [ROOT, os.path.join(ROOT, "scripts")]
 
-import numpy as np  # noqa: E402
-from DelaunayMesher import document  # noqa: E402
-from DelaunayMesher.quality import dihedral_angles  # noqa: E402
-
 import FreeCAD  # noqa: E402
+import numpy as np  # noqa: E402
 import ObjectsFem  # noqa: E402
 import Part  # noqa: E402
 from femtools.ccxtools import FemToolsCcx  # noqa: E402
+
+from DelaunayMesher import document  # noqa: E402
+from DelaunayMesher.quality import dihedral_angles  # noqa: E402
 
 OUTPUT = os.path.join(ROOT, "example_output")
 MAX_SIZE = float(os.environ.get("EXAMPLE_SIZE", "4.0"))  # mm
@@ -93,16 +93,24 @@ def node_fields(result, count):
     return moved, stress
 
 
-def print_table(mesh, angles, seconds, moved, stress):
+def summary(mesh, angles, seconds, moved, stress):
+    """What a reader wants to know, as lines."""
     quality = mesh.quality
-    print("\n  %-34s %d" % ("nodes", len(mesh.points)))
-    print("  %-34s %d (order %d)" % ("tetrahedra", len(mesh.tets), mesh.order))
-    print("  %-34s %.2f / %.2f degrees" % ("dihedral angles, worst", quality["min_dihedral"], quality["max_dihedral"]))
-    print("  %-34s %.2f degrees" % ("smallest angle of a tet, median", np.median(angles)))
-    for stage, taken in seconds.items():
-        print("  %-34s %.2f s" % (stage, taken))
-    print("  %-34s %.5f mm" % ("largest displacement", np.linalg.norm(moved, axis=1).max()))
-    print("  %-34s %.1f MPa" % ("largest von Mises stress", stress.max()))
+    rows = [
+        ("nodes", "%d" % len(mesh.points)),
+        ("tetrahedra", "%d of order %d" % (len(mesh.tets), mesh.order)),
+        (
+            "worst dihedral angles",
+            "%.2f and %.2f degrees" % (quality["min_dihedral"], quality["max_dihedral"]),
+        ),
+        ("smallest angle of a tetrahedron", "%.1f degrees (median)" % np.median(angles)),
+        ("below the target angle", "%d" % len(mesh.below_target)),
+        *((stage, "%.2f s" % taken) for stage, taken in seconds.items()),
+        ("largest displacement", "%.5f mm" % np.linalg.norm(moved, axis=1).max()),
+        ("largest von Mises stress", "%.1f MPa" % stress.max()),
+        ("written to example_output/", "bracket.png  report.json  bracket_solved.FCStd"),
+    ]
+    return "\n".join("%-34s %s" % row for row in rows) + "\n"
 
 
 def main():
@@ -133,12 +141,13 @@ def main():
     cut = (np.array([0.0, middle, 0.0]), np.array([0.0, -1.0, 0.0]))
     picture(os.path.join(OUTPUT, "bracket.png"), mesh, angles, moved, stress, cut, title)
     file.saveAs(os.path.join(OUTPUT, "bracket_solved.FCStd"))
-    print_table(mesh, angles, seconds, moved, stress)
+    with open(os.path.join(OUTPUT, "summary.txt"), "w", encoding="utf-8") as stream:
+        stream.write(summary(mesh, angles, seconds, moved, stress))
 
 
 try:
     main()
-    print("\nEXAMPLE OK: see example_output/bracket.png, report.json and bracket_solved.FCStd", flush=True)
+    print("\nEXAMPLE OK", flush=True)
 except Exception:  # freecadcmd would run the script a second time
     traceback.print_exc()
     print("EXAMPLE FAILED", flush=True)

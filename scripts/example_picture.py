@@ -1,8 +1,7 @@
 """Draws a mesh cut open beside a deformed result; numpy and matplotlib only."""
 
-import numpy as np
-
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 
@@ -37,7 +36,9 @@ def draw(axes, points, triangles, colours, camera, line="none", width=0.0):
     shade = 0.62 + 0.38 * np.clip(normals[order] @ (camera.T @ LIGHT), 0.0, 1.0)
     paint = np.clip(colours[order] * shade[:, None], 0.0, 1.0)
     edge = paint if line == "none" else line
-    axes.add_collection(PolyCollection(seen[triangles[order], :2], facecolors=paint, edgecolors=edge, linewidths=width))
+    axes.add_collection(
+        PolyCollection(seen[triangles[order], :2], facecolors=paint, edgecolors=edge, linewidths=width)
+    )
 
 
 def frame(axes, points, camera):
@@ -55,7 +56,9 @@ def colour_bar(figure, axes, norm, colours, label):
     """A slim bar under one half; its end is pointed where values lie above it."""
     box = axes.get_position()
     place = figure.add_axes([box.x0 + 0.2 * box.width, 0.1, 0.6 * box.width, 0.022])
-    bar = figure.colorbar(plt.cm.ScalarMappable(norm, colours), cax=place, orientation="horizontal", extend="max")
+    bar = figure.colorbar(
+        plt.cm.ScalarMappable(norm, colours), cax=place, orientation="horizontal", extend="max"
+    )
     bar.set_label(label, color=INK, fontsize=11)
     bar.ax.tick_params(labelsize=10, colors=INK)
     bar.outline.set_visible(False)
@@ -75,7 +78,15 @@ def draw_mesh(figure, axes, points, tets, angles, camera, cut):
     """The cut mesh, each tetrahedron in the colour of its smallest dihedral angle."""
     triangles, owner = cut_open(points, tets, *cut)
     norm, colours = Normalize(15, 60), plt.get_cmap("viridis")
-    draw(axes, points, triangles, colours(norm(angles[owner]))[:, :3], camera, line=(0.07, 0.1, 0.13, 0.75), width=0.25)
+    draw(
+        axes,
+        points,
+        triangles,
+        colours(norm(angles[owner]))[:, :3],
+        camera,
+        line=(0.07, 0.1, 0.13, 0.75),
+        width=0.25,
+    )
     frame(axes, points, camera)
     colour_bar(figure, axes, norm, colours, "smallest dihedral angle of each tetrahedron (degrees)")
     axes.set_title("Mesh, cut open", color=INK, fontsize=14, pad=4)
@@ -95,7 +106,9 @@ def draw_result(figure, axes, points, triangles, lines, moved, stress, camera):
     axes.add_collection(outline)
     frame(axes, np.concatenate([points, deformed]), camera)
     colour_bar(figure, axes, norm, colours, "von Mises stress (MPa)")
-    axes.set_title("Deformed %.0f times, outline of the unloaded part" % factor, color=INK, fontsize=14, pad=4)
+    axes.set_title(
+        "Deformed %.0f times, outline of the unloaded part" % factor, color=INK, fontsize=14, pad=4
+    )
 
 
 def picture(path, mesh, angles, moved, stress, cut, title):

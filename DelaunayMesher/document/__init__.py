@@ -1,8 +1,8 @@
 """The FreeCAD side: CAD shapes in, FEM mesh objects out.  Needs FreeCAD, never its window.
 
-    from DelaunayMesher import document
-    mesh = document.add_mesh(part, max_size=5.0, order=2)
-    document.run(mesh)
+from DelaunayMesher import document
+mesh = document.add_mesh(part, max_size=5.0, order=2)
+document.run(mesh)
 """
 
 from .find_freecad import find_freecad

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def side_triangles(triangles, sides):
-    """Triangles as each solid sees them, normals outward: (q, 3) corners, (q,) solid, (q,) row of `triangles`.
+    """Triangles as each solid sees them, normals outward: (q, 3) corners, (q,) solid, (q,) row of triangles.
 
     sides: (m, 2) {solid behind, solid in front} per triangle.  A triangle with one solid on both sides bounds
     nothing and is left out.
@@ -18,7 +18,7 @@ def side_triangles(triangles, sides):
 
 
 def open_triangles(triangles, sides, point_count):
-    """(rows, edges): triangles with an edge that is not matched in their solid, and that edge's end points."""
+    """(rows, edges): triangles with an edge that is not matched in their solid, and the ends of that edge.
     corners, solid, row = side_triangles(triangles, sides)
     start = corners.reshape(-1)
     end = np.roll(corners, -1, axis=1).reshape(-1)

@@ -11,7 +11,7 @@ PARAMETERS = 7  # origin (3), axis (3), a
 
 
 def edge_records(edges, wanted):
-    """Arrays (kind (E,), params (E, 7), spline (E,)), the list of spline dicts, and the edges without a curve.
+    """Arrays (kind (E,), params (E, 7), spline (E,)), list of spline dicts, and the edges without a curve.
 
     wanted: (E,) bool; other edges (degenerate ones, seams that are dropped) stay polylines.
     """

@@ -1,8 +1,8 @@
 """Exact geometry of CAD faces as records of numbers: plane, cylinder, cone, sphere, torus, or a B-spline.
 
-An analytic record is believed only when most of the face's own tessellation nodes lie on it (those on its edges may
-be off by as much as the CAD file is); otherwise (a placement that the attributes do not reflect, an unknown kind)
-the face is converted to a B-spline.
+An analytic record is believed only when most of the face's own tessellation nodes lie on it (those on its
+edges may be off by as much as the CAD file is); otherwise (a placement that the attributes do not reflect, an
+unknown kind) the face is converted to a B-spline.
 """
 
 import itertools
@@ -18,10 +18,11 @@ PARAMETERS = 8  # origin (3), axis (3), a, b
 
 
 def face_records(faces, face_nodes, tolerances):
-    """Arrays (kind (F,), params (F, 8), spline (F,)), the list of spline dicts, and notes about doubtful faces.
+    """Arrays (kind (F,), params (F, 8), spline (F,)), the list of spline dicts, and notes about doubtful
+    faces.
 
-    face_nodes: per face an (n, 3) array of points on it.  tolerances: per face how far these may be off, as CAD
-    edges are only near the surface.
+    face_nodes: per face an (n, 3) array of points on it.  tolerances: per face how far these may be off, as
+    CAD edges are only near the surface.
     """
     kinds = np.zeros(len(faces), dtype=np.int32)
     params = np.zeros((len(faces), PARAMETERS))
@@ -53,7 +54,9 @@ def face_record(face, nodes, tolerance):
         fits = agrees(candidate, face) if same_parameters else passes_through(candidate, nodes, tolerance)
         if fits:
             record = surface_record(candidate, ranges)
-            flat = plane_through(record["poles"], 1e-9 * max(np.abs(np.ptp(nodes, axis=0)).max(initial=0.0), 1e-3))
+            flat = plane_through(
+                record["poles"], 1e-9 * max(np.abs(np.ptp(nodes, axis=0)).max(initial=0.0), 1e-3)
+            )
             if flat is not None:
                 return PLANE, parameters(*flat), None
             return SPLINE, None, record
@@ -104,7 +107,7 @@ def distances(kind, params, points):
 
 
 def spline_candidates(face, surface):
-    """(B-spline surface, range, whether its parameters are the face's) to try: as it is, then by toNurbs()."""
+    """(surface, range, whether its parameters are the face's) to try: as it is, then by toNurbs()."""
     if isinstance(surface, Part.BSplineSurface):
         yield surface, face.ParameterRange, True
     elif isinstance(surface, Part.BezierSurface):

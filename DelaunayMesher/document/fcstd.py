@@ -13,9 +13,8 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
     The file appears only when it is complete.  Raises InputError when it cannot be written.
     """
     find_freecad()
-    import FreeCAD
-
     import Fem  # noqa: F401  registers the document types
+    import FreeCAD
 
     from .femmesh import fem_mesh
     from .mesh_object import add_mesh, size_rows, store

@@ -1,9 +1,9 @@
 """Our mesh -> FreeCAD's FemMesh.
 
-Node numbers are ours plus one.  FreeCAD's tetrahedra are mirror images of VTK's, so the nodes are permuted.  The
-boundary triangles and edges must be there: without them FreeCAD loses force on curved faces.  Groups FaceN, EdgeN
-(elements on a CAD face or edge) and SolidN (volumes) always; more with `groups`.  Cost: about 3 microseconds per
-tetrahedron.
+Node numbers are ours plus one.  FreeCAD's tetrahedra are mirror images of VTK's, so the nodes are permuted.
+The boundary triangles and edges must be there: without them FreeCAD loses force on curved faces.  Groups
+FaceN, EdgeN (elements on a CAD face or edge) and SolidN (volumes) always; more with `groups`.  Cost: about 3
+microseconds per tetrahedron.
 """
 
 import numpy as np
@@ -14,8 +14,8 @@ TETRAHEDRON = {4: [1, 0, 2, 3], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 def fem_mesh(mesh, groups=(), aliases=None):
     """Fem.FemMesh of a Mesh.
 
-    groups: (name, names of CAD elements) pairs, such as ("Press", ["Face1", "Face4"]).  aliases: touching.Aliases;
-    CAD elements that were merged into others have groups as well.
+    groups: (name, names of CAD elements) pairs, such as ("Press", ["Face1", "Face4"]).  aliases:
+    touching.Aliases; CAD elements that were merged into others have groups as well.
     """
     import Fem
 

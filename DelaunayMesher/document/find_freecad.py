@@ -34,7 +34,7 @@ def candidates():
 
 
 def find_freecad():
-    """Import and return the module ``FreeCAD``; MeshError (stage 'document') when there is none to be found."""
+    """Import and return the module ``FreeCAD``; MeshError (stage 'document') when there is none."""
     if "FreeCAD" in sys.modules:
         return sys.modules["FreeCAD"]
     try:
@@ -62,7 +62,10 @@ def find_freecad():
 def add_workbenches(freecad):
     """Make the Python modules of FreeCAD's workbenches importable, as FreeCAD itself does when it starts."""
     for base in (freecad.getResourceDir(), freecad.getHomePath()):
-        for folder in (os.path.join(base, "Ext"), *sorted(glob.glob(os.path.join(glob.escape(base), "Mod", "*")))):
+        for folder in (
+            os.path.join(base, "Ext"),
+            *sorted(glob.glob(os.path.join(glob.escape(base), "Mod", "*"))),
+        ):
             if os.path.isdir(folder) and folder not in sys.path:
                 sys.path.append(folder)
     return freecad

@@ -1,15 +1,14 @@
 """The FEM mesh document object: its properties are the options, run() fills it.
 
-It links to the meshed part (`Shape`), and FreeCAD's own mesh refinements and mesh groups work on it.  Recomputing
-the document never meshes.  A run that fails or is cancelled leaves the object as it was.
+It links to the meshed part (`Shape`), and FreeCAD's own mesh refinements and mesh groups work on it.
+Recomputing the document never meshes.  A run that fails or is cancelled leaves the object as it was.
 """
 
 import json
 import time
 
-import FreeCAD
-
 import Fem  # noqa: F401  registers the document types; without it the better type below is not known
+import FreeCAD
 
 from ..errors import InputError, MeshCancelled
 from . import references
@@ -63,7 +62,9 @@ def add_properties(target):
             target.addProperty("App::PropertyLinkList", name, "Base", text)
     add_option_properties(target)
     if not hasattr(target, "Sizes"):
-        target.addProperty("App::PropertyStringList", "Sizes", "Size", "Sizes at elements of the part: Face3=0.5")
+        target.addProperty(
+            "App::PropertyStringList", "Sizes", "Size", "Sizes at elements of the part: Face3=0.5"
+        )
     for name, text, hidden in (
         ("Summary", "What the last run made", False),
         ("Report", "The report of the last run (JSON)", True),
@@ -73,10 +74,11 @@ def add_properties(target):
 
 
 def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
-    """A new, empty mesh object for the document object `part`, in `analysis` (default: the active one, if any).
+    """A new, empty mesh object for the document object `part`, in `analysis` (default: the active one, if
+    any).
 
-    options: as MeshOptions takes them, such as max_size=5.0, order=2, sizes={"Face3": 0.5}.  Raises InputError for
-    an unknown or impossible option; nothing is created then.
+    options: as MeshOptions takes them, such as max_size=5.0, order=2, sizes={"Face3": 0.5}.  Raises
+    InputError for an unknown or impossible option; nothing is created then.
     """
     from ..options import make_options
 
@@ -84,7 +86,9 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
         raise InputError("options", "no_shape", "%s has no shape to mesh" % getattr(part, "Label", part))
     chosen = make_options(None, **options)
     if chosen.regions or chosen.size_points is not None:
-        raise InputError("options", "not_stored", "regions and size_points are not kept in documents; give them to run()")
+        raise InputError(
+            "options", "not_stored", "regions and size_points are not kept in documents; give them to run()"
+        )
     document = part.Document
     known = document.supportedTypes()
     target = document.addObject(next(kind for kind in TYPES if kind in known), name)
@@ -113,7 +117,9 @@ def read_sizes(rows):
         try:
             sizes[name.strip()] = float(size)
         except ValueError:
-            raise InputError("options", "bad_size", "a size is written like Face3=0.5, not %r" % row) from None
+            raise InputError(
+                "options", "bad_size", "a size is written like Face3=0.5, not %r" % row
+            ) from None
     return sizes
 
 
@@ -163,8 +169,8 @@ def collect(target, **extra):
 def run(target, report=None, **extra):
     """Mesh the part and fill the object; blocks.  Returns the Mesh.
 
-    report: callable (stage, fraction) -> bool, False cancels.  extra: regions, size_points, size_values.  Raises
-    MeshError, InputError or MeshCancelled; the object then keeps what it had.
+    report: callable (stage, fraction) -> bool, False cancels.  extra: regions, size_points, size_values.
+    Raises MeshError, InputError or MeshCancelled; the object then keeps what it had.
     """
     shape, options, keep, groups, warnings = collect(target, **extra)
     mesh = mesh_shape(shape, options, report, keep)
@@ -200,15 +206,18 @@ def store(target, mesh, filled):
 def summary(mesh):
     """One line for people."""
     angles = mesh.quality
-    return "%d nodes, %d tetrahedra of order %d, dihedral angles %.1f to %.1f degrees, %d below %.4g, %.1f s" % (
-        len(mesh.points),
-        len(mesh.tets),
-        mesh.order,
-        angles["min_dihedral"],
-        angles["max_dihedral"],
-        len(mesh.below_target),
-        mesh.options.target_angle,
-        mesh.total_seconds,
+    return (
+        "%d nodes, %d tetrahedra of order %d, dihedral angles %.1f to %.1f degrees, %d below %.4g, %.1f s"
+        % (
+            len(mesh.points),
+            len(mesh.tets),
+            mesh.order,
+            angles["min_dihedral"],
+            angles["max_dihedral"],
+            len(mesh.below_target),
+            mesh.options.target_angle,
+            mesh.total_seconds,
+        )
     )
 
 

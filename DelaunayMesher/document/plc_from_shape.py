@@ -1,10 +1,11 @@
 """CAD shape -> PLC: closed, oriented, labelled triangles with the exact geometry of every face and edge.
 
-Idea: OCC's own tessellation closes where surface meshers that work in (u, v) fail, so it serves as the map; the core
-puts every node on the exact surface.  Its deflection follows the wanted element size.  Precondition: at least one
-solid.  Postcondition: the triangles enclose every solid; every segment is an edge of a triangle; seams of closed
-surfaces are no segments (unless asked for).  Cost: 2 to 10 microseconds per triangle beside OCC's own time.
-Limits: touching solids must have equal faces where they touch; self-intersections are left to the core to find.
+Idea: OCC's own tessellation closes where surface meshers that work in (u, v) fail, so it serves as the map;
+the core puts every node on the exact surface.  Its deflection follows the wanted element size.  Precondition:
+at least one solid.  Postcondition: the triangles enclose every solid; every segment is an edge of a triangle;
+seams of closed surfaces are no segments (unless asked for).  Cost: 2 to 10 microseconds per triangle beside
+OCC's own time. Limits: touching solids must have equal faces where they touch; self-intersections are left to
+the core to find.
 """
 
 from dataclasses import dataclass, replace
@@ -72,11 +73,14 @@ def check_solid(shape):
         raise MeshError("plc", "null_shape", "the object has no shape; recompute it, or select another")
     if not shape.Solids:
         kind = shape.ShapeType.lower()
-        hint = "its faces close: make a solid of it" if shape.isClosed() else "close it and make a solid of it"
+        hint = (
+            "its faces close: make a solid of it" if shape.isClosed() else "close it and make a solid of it"
+        )
         raise MeshError(
             "plc",
             "not_a_solid",
-            "the shape is a %s without a solid (%d faces); %s (Part: Convert to solid)" % (kind, len(shape.Faces), hint),
+            "the shape is a %s without a solid (%d faces); %s (Part: Convert to solid)"
+            % (kind, len(shape.Faces), hint),
         )
     bounds = shape.BoundBox
     if not bounds.isValid() or not np.isfinite(bounds.DiagonalLength):
@@ -84,7 +88,7 @@ def check_solid(shape):
 
 
 def deflections(shape, options):
-    """(linear mm, angular rad): a share of the element size, finer where many elements per circle are wanted."""
+    """(linear mm, angular rad): a share of the element size, finer for many elements per circle."""
     diagonal = shape.BoundBox.DiagonalLength
     size = getattr(options, "max_size", None) or diagonal / AUTOMATIC_FRACTION
     per_circle = getattr(options, "elements_per_circle", None) or 0.0
@@ -156,7 +160,9 @@ def outward(mesh, sides, warnings):
         both = mine.any(axis=1) & (sides != 0).all(axis=1)
         if both.any():
             face = entity_name(2, int(np.flatnonzero(both)[0]))
-            raise MeshError("plc", "inside_out", "%s is inside out and shares %s" % (name, face), entity=name, other=face)
+            raise MeshError(
+                "plc", "inside_out", "%s is inside out and shares %s" % (name, face), entity=name, other=face
+            )
         sides = flipped
     return sides
 
@@ -171,7 +177,9 @@ def features(mesh, kinds, keep):
     seam = np.zeros(len(mesh.edges), dtype=bool)
     sharp_tip = set()
     for number, face in mesh.seam_faces.items():
-        smooth = mesh.edge_faces[number] == [face] and seam_is_smooth(mesh.edges[number], mesh.faces[face], kinds[face])
+        smooth = mesh.edge_faces[number] == [face] and seam_is_smooth(
+            mesh.edges[number], mesh.faces[face], kinds[face]
+        )
         seam[number] = smooth and entity_name(1, number) not in keep
     tips = np.zeros(len(mesh.vertex_point), dtype=bool)
     touched = np.zeros(int(mesh.vertex_point.max(initial=-1)) + 1, dtype=bool)
@@ -229,7 +237,11 @@ def open_shape(shape, mesh, rows, edges):
     faces = mesh.triangle_face[rows]
     name = entity_name(2, int(faces[0]))
     place = mesh.points[edges[0]].mean(axis=0)
-    cause = "the solid is not closed" if not all(solid.isClosed() for solid in shape.Solids) else "the solid has a gap"
+    cause = (
+        "the solid is not closed"
+        if not all(solid.isClosed() for solid in shape.Solids)
+        else "the solid has a gap"
+    )
     if not shape.isValid():
         cause += " and the CAD program calls the shape invalid (Part: Check geometry)"
     return MeshError(

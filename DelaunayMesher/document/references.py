@@ -1,8 +1,9 @@
-"""References to CAD elements in FreeCAD's own objects -> names of elements of the meshed shape, sizes and groups.
+"""References to CAD elements in FreeCAD's own objects -> names of elements of the meshed shape, sizes and
+groups.
 
-FreeCAD's mesh refinements ("mesh regions") carry a size and references; mesh groups a name and references.  They may
-refer to another object than the meshed one (the box inside a cut, a body's feature): the element is then looked for
-by its geometry.
+FreeCAD's mesh refinements ("mesh regions") carry a size and references; mesh groups a name and references.
+They may refer to another object than the meshed one (the box inside a cut, a body's feature): the element is
+then looked for by its geometry.
 """
 
 from ..errors import InputError
@@ -28,7 +29,9 @@ def all_solids(item):
 
 
 def find_element(item, element, shape):
-    """Name of the element of `shape` with the same geometry as `element` of another object; InputError if none."""
+    """Name of the element of `shape` with the same geometry as `element` of another object; InputError if
+    none.
+    """
     from femtools import geomtools
 
     found = geomtools.find_element_in_shape(shape, geomtools.get_element(item, element))
@@ -82,7 +85,7 @@ def named_groups(target, part, shape):
 
 
 def constraint_names(analysis, part):
-    """Names of the part's elements that the constraints of an analysis refer to; seams among them are kept."""
+    """Names of the part's elements that the constraints of an analysis refer to (seams among them stay)."""
     names = []
     for item in analysis.Group if analysis else ():
         for other, elements in getattr(item, "References", None) or ():

@@ -19,7 +19,10 @@ def surface_record(surface, ranges):
     """dict of a Part.BSplineSurface; `ranges` (u0, u1, v0, v1) is the part of it that the face uses."""
     ranges = list(ranges)
     surface = surface.copy()
-    for first, periodic, make in ((0, "isUPeriodic", "setUNotPeriodic"), (2, "isVPeriodic", "setVNotPeriodic")):
+    for first, periodic, make in (
+        (0, "isUPeriodic", "setUNotPeriodic"),
+        (2, "isVPeriodic", "setVNotPeriodic"),
+    ):
         if getattr(surface, periodic)():
             getattr(surface, make)()
             ranges[first : first + 2] = surface.bounds()[first : first + 2]  # the face may straddle the seam

@@ -42,7 +42,7 @@ class ShapeIndex:
 
 @dataclass
 class Tessellation:
-    """Raw triangles and polylines of a shape, nodes merged.  `faces`, `edges` keep the CAD objects (a copy)."""
+    """Raw triangles and polylines of a shape, nodes merged.  `faces`, `edges` are CAD objects of a copy."""
 
     shape: object
     faces: list
@@ -124,7 +124,7 @@ def edge_lines(faces, edges):
 
 
 def gather_segments(lines, starts, compact):
-    """Segments (k, 2) and the edge of each, from polylines stored one after the other; no zero-length ones."""
+    """Segments (k, 2) and the edge of each, from polylines stored one after the other; none of length 0."""
     pairs, owners = [], []
     for number, (line, start) in enumerate(zip(lines, starts)):
         if len(line) > 1:

@@ -1,7 +1,8 @@
 """Solids that touch without sharing a face (a plain compound): coincident faces become one interface.
 
-Where the triangulations of two coincident faces agree, one face keeps the triangles, with a solid on each side, and
-the other becomes its alias.  Where they agree only in part the faces overlap, and the shape has to be cut first.
+Where the triangulations of two coincident faces agree, one face keeps the triangles, with a solid on each
+side, and the other becomes its alias.  Where they agree only in part the faces overlap, and the shape has to
+be cut first.
 """
 
 from dataclasses import dataclass, field

@@ -1,9 +1,10 @@
-"""Builds the example part, a mounting bracket, and saves it as bracket.FCStd and bracket.step beside this file.
+"""Builds the example part, a mounting bracket, and saves it as bracket.FCStd and bracket.step beside this
+file.
 
     freecadcmd resources/examples/make_bracket.py
 
-A base plate with four bolt holes, an upright plate with a bearing bore in a boss, a rib between them, and fillets
-where they meet: 110 x 70 x 87 mm, no dihedral angle under 60 degrees.
+A base plate with four bolt holes, an upright plate with a bearing bore in a boss, a rib between them, and
+fillets where they meet: 110 x 70 x 87 mm, no dihedral angle under 60 degrees.
 """
 
 import math
@@ -74,7 +75,11 @@ def edges_along(shape, direction, where):
     found = []
     for edge in shape.Edges:
         start, end = edge.Vertexes[0].Point, edge.Vertexes[-1].Point
-        if isinstance(edge.Curve, Part.Line) and (end - start).cross(direction).Length < 1e-6 and where((start + end) / 2):
+        if (
+            isinstance(edge.Curve, Part.Line)
+            and (end - start).cross(direction).Length < 1e-6
+            and where((start + end) / 2)
+        ):
             found.append(edge)
     return found
 
@@ -102,7 +107,11 @@ def angle_at(solid, edge):
     middle = edge.valueAt(sum(edge.ParameterRange) / 2)
     normals = [face.normalAt(*face.Surface.parameter(middle)) for face in faces]
     between = math.degrees(math.acos(max(-1.0, min(1.0, normals[0].dot(normals[1])))))
-    inside = solid.isInside(middle - (normals[0] + normals[1]).multiply(1e-3), 1e-7, False) if between < 179 else True
+    inside = (
+        solid.isInside(middle - (normals[0] + normals[1]).multiply(1e-3), 1e-7, False)
+        if between < 179
+        else True
+    )
     return 180.0 - between if inside else 180.0 + between
 
 
@@ -117,7 +126,10 @@ def main():
     solid.exportStep(step)
     if not Part.read(step).isValid():
         raise RuntimeError("the bracket does not survive STEP")
-    print("bracket: %d faces, %.0f mm3, sharpest edge %.0f degrees" % (len(solid.Faces), solid.Volume, sharpest_edge(solid)))
+    print(
+        "bracket: %d faces, %.0f mm3, sharpest edge %.0f degrees"
+        % (len(solid.Faces), solid.Volume, sharpest_edge(solid))
+    )
 
 
 main()
