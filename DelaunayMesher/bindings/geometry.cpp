@@ -1,0 +1,77 @@
+// Parts of the pipeline on arrays: exact geometry, size field, boundary triangulation.
+#include "plc/geometry.h"
+
+#include <nanobind/stl/string.h>
+
+#include "functions.h"
+#include "inputs.h"
+#include "sizing/size_field.h"
+#include "surfaces/remesh.h"
+
+namespace dm::python {
+
+namespace {
+
+nb::object project(const nb::dict& plc, const nb::object& records, int dimension, Index index,
+                   const Table<double>& points) {
+  const Plc core_plc = read_plc(plc);
+  const Geometry geometry(core_plc, read_geometry(records));
+  const std::size_t count = dimension == 1 ? core_plc.edge_count : core_plc.face_solids.size();
+  if ((dimension != 1 && dimension != 2) || index < 0 || static_cast<std::size_t>(index) >= count)
+    throw nb::value_error("no such edge (dimension 1) or face (2)");
+  std::vector<Vec3> places = rows<Vec3, double>(points, "points");
+  const Entity entity{static_cast<std::int8_t>(dimension), index};
+  for (Vec3& place : places) place = geometry.project(entity, place);
+  return to_numpy<double>(std::move(places));
+}
+
+nb::object sizes(const nb::dict& plc, const nb::object& records, const nb::dict& options,
+                 const Table<double>& points) {
+  const Plc core_plc = read_plc(plc);
+  const Geometry geometry(core_plc, read_geometry(records));
+  const SizeOptions size_options = read_size_options(options);
+  Context context = read_context(options, nb::none());
+  const std::vector<Vec3> places = rows<Vec3, double>(points, "points");
+  std::vector<double> result(places.size());
+  {
+    const nb::gil_scoped_release release;
+    const SizeField field(core_plc, geometry, size_options, context);
+    for (std::size_t i = 0; i < places.size(); ++i) result[i] = field.at(places[i]);
+  }
+  return to_numpy<double>(std::move(result));
+}
+
+nb::dict surface_mesh(const nb::dict& plc, const nb::object& records, const nb::dict& options) {
+  const Plc core_plc = read_plc(plc);
+  const Geometry geometry(core_plc, read_geometry(records));
+  const SizeOptions size_options = read_size_options(options);
+  Context context = read_context(options, nb::none());
+  SurfaceMesh mesh;
+  {
+    const nb::gil_scoped_release release;
+    const SizeField field(core_plc, geometry, size_options, context);
+    mesh = mesh_surfaces(core_plc, geometry, field, {}, context);
+    check_surface_mesh(mesh, core_plc, geometry);
+  }
+  nb::dict out;
+  out["points"] = to_numpy<double>(std::move(mesh.points));
+  out["triangles"] = to_numpy<Index>(std::move(mesh.triangles));
+  out["triangle_face"] = to_numpy<Index>(std::move(mesh.triangle_face));
+  out["segments"] = to_numpy<Index>(std::move(mesh.segments));
+  out["segment_edge"] = to_numpy<Index>(std::move(mesh.segment_edge));
+  return out;
+}
+
+}  // namespace
+
+void add_geometry(nb::module_& module) {
+  module.def("project", &project, nb::arg("plc"), nb::arg("geometry").none(), nb::arg("dimension"),
+             nb::arg("index"), nb::arg("points"),
+             "Nearest points (n, 3) on a CAD edge (dimension 1) or face (2).");
+  module.def("sizes", &sizes, nb::arg("plc"), nb::arg("geometry").none(), nb::arg("options"),
+             nb::arg("points"), "The size field (n,) in mm at points (n, 3).");
+  module.def("surface_mesh", &surface_mesh, nb::arg("plc"), nb::arg("geometry").none(), nb::arg("options"),
+             "The boundary triangulation as a dict of arrays.");
+}
+
+}  // namespace dm::python
