@@ -20,7 +20,7 @@ def parser():
     result = argparse.ArgumentParser(
         prog="python3 -m DelaunayMesher",
         description="Mesh a CAD solid or a closed triangulated surface with tetrahedra.",
-    result.add_argument("-o", "--output", required=True, metavar="OUTPUT", help=".FCStd .inp .vtu .msh .med ...")
+        epilog="Exit status: 0 done, 1 no mesh, 2 wrong usage or unreadable input, 3 mesh written but below the "
         "target angle, 130 cancelled.",
     )
     result.add_argument(
