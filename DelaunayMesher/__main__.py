@@ -20,8 +20,8 @@ def parser():
     result = argparse.ArgumentParser(
         prog="python3 -m DelaunayMesher",
         description="Mesh a CAD solid or a closed triangulated surface with tetrahedra.",
-        epilog="Exit status: 0 done, 1 no mesh, 2 wrong usage or unreadable input, 3 mesh written but below the "
-        "target angle, 130 cancelled.",
+        epilog="Exit status: 0 done, 1 no mesh, 2 wrong usage or unreadable input, 3 mesh written but below "
+        "the target angle, 130 cancelled.",
     )
     result.add_argument(
         "input",

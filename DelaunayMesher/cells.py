@@ -137,10 +137,14 @@ def _components(triangles, sides):
 
 def _shell_volumes(points, triangles, shell):
     """Signed volume that each shell encloses, seen from the region it bounds."""
-    from .plc import signed_volumes
-
     volumes = signed_volumes(points, triangles)
     return np.bincount(shell, np.stack([-volumes, volumes], axis=1).reshape(-1))
+
+
+def signed_volumes(points, triangles):
+    """(m,) volume of the tetrahedron that each triangle spans with the middle of the points."""
+    a, b, c = (points[triangles[:, i]] - points.mean(axis=0) for i in range(3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
 
 
 def _nesting(points, triangles, shell, component, volumes):

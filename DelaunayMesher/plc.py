@@ -10,6 +10,7 @@ from typing import Any, Dict, List, Optional
 
 import numpy as np
 
+from . import cells, cleaning, features
 from .errors import MeshError
 
 CREASE_ANGLE = 40.0  # degrees: above the 30 of a 12-sided STL cylinder, below the 45 of a chamfer
@@ -102,7 +103,7 @@ class Plc:
         """Volume of one solid (1-based) in mm3, from its triangles."""
         sides = self.face_solids[self.triangle_face]
         sign = (sides[:, 0] == solid).astype(float) - (sides[:, 1] == solid)
-        return float(sign @ signed_volumes(self.points, self.triangles))
+        return float(sign @ cells.signed_volumes(self.points, self.triangles))
 
     @classmethod
     def from_triangles(
@@ -116,8 +117,6 @@ class Plc:
         closed region a solid except those with a point of `holes` (k, 3) in them. Raises MeshError naming
         the place of an open edge, an overlap, an empty or flat surface.
         """
-        from . import cells, cleaning, features
-
         points, triangles, labels, warnings = cleaning.clean(points, triangles, labels)
         front_back = cells.find_cells(points, triangles, holes=holes, nested=nested)
         keep = front_back.any(axis=1)
@@ -144,12 +143,6 @@ class Plc:
             int(front_back.max(initial=0)),
             warnings=warnings,
         )
-
-
-def signed_volumes(points, triangles):
-    """(m,) volume of the tetrahedron that each triangle spans with the middle of the points."""
-    a, b, c = (points[triangles[:, i]] - points.mean(axis=0) for i in range(3))
-    return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
 
 
 def _first_bad(points):
