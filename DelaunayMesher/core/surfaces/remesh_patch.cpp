@@ -8,7 +8,9 @@
 namespace dm {
 namespace {
 
-constexpr double kAligned = 0.5;       // a new triangle's normal within 60 degrees of the surface's
+// Flips keep normals within 32 degrees of the surface's: where the triangles do not yet resolve a bend, being
+// Delaunay would otherwise mean edges across its inside.
+constexpr double kAligned = 0.85;
 constexpr double kDegenerate = 1e-10;  // area over the square of the longest edge
 constexpr double kFlipMargin = 1e-6;   // keeps rounding from flipping back and forth
 
@@ -92,9 +94,12 @@ double PatchRemesher::alignment(const Vec3& pa, const Vec3& pb, const Vec3& pc, 
   }
   const double area = norm(n);
   if (!(area > kDegenerate * size2)) return 0;
-  const Vec3 reference = patch_.normals[a] + patch_.normals[b] + patch_.normals[c];
-  const double r = norm(reference);
-  return r > 0.1 ? dot(n, reference) / (area * r) : 1;
+  double least = 1;
+  for (const Index v : {a, b, c}) {
+    const Vec3& normal = patch_.normals[v];
+    if (norm2(normal) > 0) least = std::min(least, dot(n, normal) / area);
+  }
+  return least;
 }
 
 double PatchRemesher::edge_ratio(Index a, Index b) const {
@@ -136,7 +141,7 @@ bool PatchRemesher::can_flip(Index e) const {
   const double after = std::min(alignment(c, a, d), alignment(d, b, c));
   if (after < kAligned) {
     const double before = std::min(alignment(c, a, b), alignment(d, b, a));
-    if (after < before + 0.05) return false;
+    if (after < before) return false;
   }
   return patch_.find_edge(c, d) < 0;
 }

@@ -53,7 +53,8 @@ class PatchRemesher {
   bool split_at_middle(Index e);
 
  private:
-  // Cosine between a triangle's normal and the surface's; 0 for a degenerate triangle.
+  // Cosine of the largest angle between a triangle's normal and the surface's at its corners (a triangle
+  // across the inside of a bend fails it); 0 for a degenerate triangle.
   double alignment(Index a, Index b, Index c) const {
     return alignment(points()[a], points()[b], points()[c], a, b, c);
   }

@@ -121,7 +121,7 @@ class Checker {
     const Index triangles = n - segments;
     const Entity face{2, first.triangle >= 0 ? mesh_.triangle_face[first.triangle] : -1};
     if (segments > 1) fail("repeated_segment", "a segment occurs twice", first.a);
-    if (segments == 1 && triangles < 2) fail("open", "a segment has fewer than two triangles", first.a, face);
+    if (triangles == 0) fail("loose", "a segment is no edge of a triangle", first.a);
     if (segments == 0) {
       const Use& second = uses[n - 1];
       if (triangles != 2) fail("not_manifold", "an edge inside a face has not two triangles", first.a, face);
