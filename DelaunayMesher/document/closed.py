@@ -18,7 +18,7 @@ def side_triangles(triangles, sides):
 
 
 def open_triangles(triangles, sides, point_count):
-    """(rows, edges): triangles with an edge that is not matched in their solid, and the ends of that edge.
+    """(rows, edges): triangles with an edge that is not matched in their solid, and the ends of that edge."""
     corners, solid, row = side_triangles(triangles, sides)
     start = corners.reshape(-1)
     end = np.roll(corners, -1, axis=1).reshape(-1)

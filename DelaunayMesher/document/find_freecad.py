@@ -62,10 +62,9 @@ def find_freecad():
 def add_workbenches(freecad):
     """Make the Python modules of FreeCAD's workbenches importable, as FreeCAD itself does when it starts."""
     for base in (freecad.getResourceDir(), freecad.getHomePath()):
-        for folder in (
-            os.path.join(base, "Ext"),
-            *sorted(glob.glob(os.path.join(glob.escape(base), "Mod", "*"))),
-        ):
+        modules = os.path.join(base, "Mod")
+        workbenches = sorted(glob.glob(os.path.join(glob.escape(modules), "*")))
+        for folder in (os.path.join(base, "Ext"), *workbenches, modules):
             if os.path.isdir(folder) and folder not in sys.path:
                 sys.path.append(folder)
     return freecad

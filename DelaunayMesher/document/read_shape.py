@@ -36,22 +36,31 @@ def read_shape(path):
 
 
 def shape_of_document(path):
-    """The shape of the solids in an FCStd file; the document is closed again."""
+    """The shape of the solids in an FCStd file.  A document that is open already stays open."""
     import FreeCAD
-    import Part
 
+    for document in FreeCAD.listDocuments().values():
+        if document.FileName and os.path.realpath(document.FileName) == os.path.realpath(path):
+            return shape_of_solids(document)
     try:
         document = FreeCAD.openDocument(path, True)
     except Exception as error:  # a broken archive raises whatever its first broken part raises
         raise InputError("plc", "unreadable", "FreeCAD cannot open %s: %s" % (path, error)) from error
     try:
-        objects = solid_objects(document)
-        if not objects:
-            raise InputError("plc", "no_solid", "%s holds no object with a solid" % path)
-        shapes = [global_shape(item) for item in objects]
-        return shapes[0].copy() if len(shapes) == 1 else Part.makeCompound([shape.copy() for shape in shapes])
+        return shape_of_solids(document)
     finally:
         FreeCAD.closeDocument(document.Name)
+
+
+def shape_of_solids(document):
+    """A copy of the shape of the document's solid objects; several make a compound."""
+    import Part
+
+    objects = solid_objects(document)
+    if not objects:
+        raise InputError("plc", "no_solid", "%s holds no object with a solid" % document.FileName)
+    shapes = [global_shape(item).copy() for item in objects]
+    return shapes[0] if len(shapes) == 1 else Part.makeCompound(shapes)
 
 
 def solid_objects(document):

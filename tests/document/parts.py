@@ -1,0 +1,62 @@
+"""The parts that the tests mesh, by name; and where the example part lies."""
+
+import math
+import os
+
+import Part
+from FreeCAD import Vector
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BRACKET = os.path.join(ROOT, "resources", "examples", "bracket.step")
+
+
+def lofted():
+    """A solid between three closed B-spline sections."""
+
+    def section(z, a, b):
+        steps = [2 * math.pi * k / 12 for k in range(12)]
+        points = [Vector(a * math.cos(t), b * math.sin(t) * (1 + 0.1 * math.cos(3 * t)), z) for t in steps]
+        curve = Part.BSplineCurve()
+        curve.interpolate(Points=points, PeriodicFlag=True)
+        return Part.Wire(curve.toShape())
+
+    return Part.makeLoft([section(0, 20, 14), section(15, 14, 14), section(35, 18, 10)], True)
+
+
+def plate_with_holes(count=7):
+    """A plate with count * count holes."""
+    plate = Part.makeBox(100, 100, 10)
+    holes = [
+        Part.makeCylinder(3 + 0.1 * i, 10, Vector(8 + 14 * i, 8 + 14 * j, 0))
+        for i in range(count)
+        for j in range(count)
+    ]
+    return plate.cut(Part.makeCompound(holes)).removeSplitter().Solids[0]
+
+
+def bracket():
+    return Part.read(BRACKET)
+
+
+PARTS = {
+    "bracket": bracket,
+    "box": lambda: Part.makeBox(30, 20, 10),
+    "cylinder": lambda: Part.makeCylinder(5, 20),
+    "sphere": lambda: Part.makeSphere(10),
+    "torus": lambda: Part.makeTorus(20, 6),
+    "cone_frustum": lambda: Part.makeCone(10, 5, 15),
+    "lofted": lofted,
+    "plate": plate_with_holes,
+}
+
+# Sizes at which a mesh is made in a second or two.
+SIZES = {
+    "bracket": 8.0,
+    "box": 4.0,
+    "cylinder": 2.5,
+    "sphere": 4.0,
+    "torus": 4.0,
+    "cone_frustum": 3.0,
+    "lofted": 5.0,
+    "plate": 8.0,
+}
