@@ -86,9 +86,23 @@ Index BoundaryTree::solid_at(const Vec3& p) const {
   return first == second ? first : solid_along(p, kDirections[2]);
 }
 
-Vec3 BoundaryTree::nearest(const Vec3& p) const {
-  Vec3 best = p;
+BoundaryTree::Foot BoundaryTree::nearest(const Vec3& p) const {
+  // Nearest to an edge or corner, several triangles tie: they must agree about the solid, or rays decide.
+  constexpr double kTie = 1 + 1e-9;
+  Foot best{p, -1};
+  bool agree = true;
   double best2 = HUGE_VAL;
+  const auto ask = [&](Index index) {
+    const Triangle& t = plc_.triangles[index];
+    const Vec3 a = plc_.points[t[0]], b = plc_.points[t[1]], c = plc_.points[t[2]];
+    const Vec3 q = nearest_on_triangle(p, a, b, c);
+    const double d2 = norm2(q - p);
+    if (d2 > best2 * kTie) return;
+    const Index solid =
+        plc_.face_solids[plc_.triangle_face[index]][dot(p - q, area_vector(a, b, c)) > 0 ? 1 : 0];
+    agree = d2 * kTie < best2 || (agree && solid == best.solid);
+    if (d2 < best2) best = {q, solid}, best2 = d2;
+  };
   struct Entry {
     Index node;
     double distance2;
@@ -97,13 +111,9 @@ Vec3 BoundaryTree::nearest(const Vec3& p) const {
   stack[top++] = {0, 0.0};
   while (top > 0) {
     const Entry entry = stack[--top];
-    if (entry.distance2 >= best2) continue;
+    if (entry.distance2 > best2 * kTie) continue;
     const BoxTree::Node& node = tree_.nodes()[entry.node];
-    for (Index k = node.first; k < node.first + node.count; ++k) {
-      const Triangle& t = plc_.triangles[tree_.order()[k]];
-      const Vec3 q = nearest_on_triangle(p, plc_.points[t[0]], plc_.points[t[1]], plc_.points[t[2]]);
-      if (norm2(q - p) < best2) best = q, best2 = norm2(q - p);
-    }
+    for (Index k = 0; k < node.count; ++k) ask(tree_.order()[node.first + k]);
     if (node.count > 0) continue;
     Entry near{node.first, tree_.nodes()[node.first].box.distance2(p)};
     Entry far{node.first + 1, tree_.nodes()[node.first + 1].box.distance2(p)};
@@ -111,6 +121,7 @@ Vec3 BoundaryTree::nearest(const Vec3& p) const {
     stack[top++] = far;
     stack[top++] = near;
   }
+  if (!agree) best.solid = solid_at(p);
   return best;
 }
 

@@ -22,7 +22,12 @@ class BoundaryTree {
   // Solid (1-based) that p lies in, 0 = outside: by the side of the first triangle that rays from p hit, the
   // majority of three rays at most.  Not exact for points on the boundary.
   Index solid_at(const Vec3& p) const;
-  Vec3 nearest(const Vec3& p) const;  // on the triangles
+  // Nearest place on the triangles and the solid that p lies in by their side.
+  struct Foot {
+    Vec3 place;
+    Index solid = 0;
+  };
+  Foot nearest(const Vec3& p) const;
   // Conservative: true whenever a triangle touches the box.
   bool touches(const Box& box) const;
   const Box& box() const { return tree_.nodes()[0].box; }  // of the whole PLC

@@ -44,9 +44,11 @@ double ExactField::at(const Vec3& p, Index& hint) const {
 
 double ExactField::continued(const Vec3& p, Index& hint) const {
   const double h = at(p, hint);
-  if (hint < 0 || !sources.source(hint).on_boundary || boundary->solid_at(p) > 0) return h;
+  if (hint < 0 || !sources.source(hint).on_boundary) return h;
+  const BoundaryTree::Foot nearest = boundary->nearest(p);
+  if (nearest.solid > 0) return h;
   Index foot_hint = hint;
-  const double foot = at(boundary->nearest(p), foot_hint);
+  const double foot = at(nearest.place, foot_hint);
   return std::max({2 * foot - h, 0.25 * foot, floor});
 }
 

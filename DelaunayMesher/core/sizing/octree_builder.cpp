@@ -72,12 +72,14 @@ void Octree::Builder::grow() {
   known_.swap(known);
 }
 
-float Octree::Builder::corner_value(std::uint32_t x, std::uint32_t y, std::uint32_t z, Index& hint) {
+float Octree::Builder::corner_value(std::uint32_t x, std::uint32_t y, std::uint32_t z, Place place,
+                                    Index& hint) {
   const std::uint64_t key = key_of(x, y, z);
   std::size_t mask = keys_.size() - 1, slot = slot_of(key, mask);
   for (; keys_[slot] != 0; slot = (slot + 1) & mask)
     if (keys_[slot] == key) return known_[slot];
-  const auto value = static_cast<float>(field_.continued(point(x, y, z), hint));
+  const auto value = static_cast<float>(place == Place::inside ? field_.at(point(x, y, z), hint)
+                                                               : field_.continued(point(x, y, z), hint));
   keys_[slot] = key;
   known_[slot] = value;
   if (2 * ++known_count_ > keys_.size()) grow();
@@ -99,7 +101,7 @@ bool Octree::Builder::must_split(Cell& cell, std::uint32_t size) {
   if (0.867 * field_.growth * edge <= kTolerance * *low) return false;
   const std::uint32_t half = size / 2;
   const auto [x, y, z] = cell.corner;
-  const double centre = corner_value(x + half, y + half, z + half, cell.hint);
+  const double centre = corner_value(x + half, y + half, z + half, cell.place, cell.hint);
   double mean = 0;
   for (const float v : cell.values) mean += v / 8;
   if (edge > kLargestCell * std::min(mean, centre)) return true;
@@ -121,7 +123,7 @@ void Octree::Builder::split(const Cell& cell, std::uint32_t size, std::vector<Ce
       for (int i = 0; i < 3; ++i) {
         const bool corner = i != 1 && j != 1 && k != 1;
         grid[k][j][i] = corner ? cell.values[i / 2 + j / 2 * 2 + k / 2 * 4]
-                               : corner_value(x + i * half, y + j * half, z + k * half, hint);
+                               : corner_value(x + i * half, y + j * half, z + k * half, cell.place, hint);
         if (hint < 0) hint = cell.hint;
       }
   const auto first = static_cast<Index>(tree_.nodes_.size());
@@ -169,7 +171,7 @@ void Octree::Builder::integrate_mixed() {
       Random random(0, sample, leaf.corner[0], leaf.corner[1], leaf.corner[2]);
       const double x = random.uniform(), y = random.uniform(), z = random.uniform();
       const Vec3 p = point(leaf.corner[0], leaf.corner[1], leaf.corner[2]) + edge * Vec3{x, y, z};
-      if (boundary_.solid_at(p) == 0) continue;
+      if (boundary_.nearest(p).solid == 0) continue;
       const double h = tree_.at(p);
       tree_.inverse_volume_ += step * volume / (h * h * h * leaf.weight);
       tree_.smallest_ = std::min(tree_.smallest_, h);
@@ -202,7 +204,8 @@ void Octree::Builder::build() {
   std::uint32_t size = 1u << kMaxLevel;
   Cell root{{0, 0, 0}, 0, -1, Place::mixed, {}};
   for (std::uint32_t v = 0; v < 8; ++v)
-    root.values[v] = corner_value((v & 1) * size, (v >> 1 & 1) * size, (v >> 2) * size, root.hint);
+    root.values[v] =
+        corner_value((v & 1) * size, (v >> 1 & 1) * size, (v >> 2) * size, root.place, root.hint);
   tree_.nodes_.assign(1, -1);
   std::vector<Cell> level{root}, next;
   for (; !level.empty(); size /= 2) {

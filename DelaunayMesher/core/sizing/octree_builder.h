@@ -23,7 +23,7 @@ class Octree::Builder {
  private:
   Vec3 point(std::uint32_t x, std::uint32_t y, std::uint32_t z) const;
   Box box(const Cell& cell, std::uint32_t size) const;
-  float corner_value(std::uint32_t x, std::uint32_t y, std::uint32_t z, Index& hint);
+  float corner_value(std::uint32_t x, std::uint32_t y, std::uint32_t z, Place place, Index& hint);
   bool must_split(Cell& cell, std::uint32_t size);
   Place place(const Cell& cell, std::uint32_t size, Place parent) const;
   void split(const Cell& cell, std::uint32_t size, std::vector<Cell>& children);

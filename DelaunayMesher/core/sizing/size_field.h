@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/context.h"
@@ -46,10 +47,14 @@ class SizeField {
   double smallest() const;         // minimum over the domain
   double largest() const;          // maximum over the domain; == smallest() means a constant field
   double growth() const;
-  // Number of tetrahedra that the field asks for: integral of 1 / (volume of one element of edge length h).
+  // Number of tetrahedra that the field asks for: integral of 1 / (volume of one element of edge length h),
+  // and a term for the smaller elements along the boundary (docs/sizing.md).
   double predicted_tetrahedra() const;
+  // Sentences for the user: where walls or gaps would need smaller elements than they get.
+  const std::vector<std::string>& warnings() const;
 
  private:
+  double inverse_boundary_area(const Plc& plc) const;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -6,6 +6,7 @@ namespace {
 
 constexpr double kCurvatureFloor = 1.0 / 100;  // of max_size, unless min_size is given
 constexpr double kProximityFloor = 1.0 / 50;
+constexpr double kCrossingFloor = 1.0 / 1000;
 
 double size_of(const std::vector<double>& sizes, Index i) {
   return i >= 0 && i < static_cast<Index>(sizes.size()) ? sizes[i] : HUGE_VAL;
@@ -23,8 +24,9 @@ void check_sizes(const std::vector<double>& sizes, const char* what, std::int8_t
 }  // namespace
 
 SizeLimits size_limits(const SizeOptions& options) {
-  if (options.min_size > 0) return {options.min_size, options.min_size, options.min_size};
-  return {0, kCurvatureFloor * options.max_size, kProximityFloor * options.max_size};
+  if (options.min_size > 0) return {options.min_size, options.min_size, options.min_size, options.min_size};
+  return {0, kCurvatureFloor * options.max_size, kProximityFloor * options.max_size,
+          kCrossingFloor * options.max_size};
 }
 
 void check_options(const SizeOptions& options) {
@@ -57,7 +59,8 @@ void check_options(const SizeOptions& options) {
                     r.a);
 }
 
-void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<SizeSource>& sources) {
+void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<double>& triangle_size,
+                     std::vector<SizeSource>& sources) {
   const auto add = [&](SizeSource source) {
     if (!(source.size < options.max_size)) return;
     source.size = std::max(source.size, options.min_size);
@@ -69,6 +72,7 @@ void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<Siz
     for (const Index solid : plc.face_solids[face])
       size = std::min(size, size_of(options.solid_size, solid - 1));
     const auto [a, b, c] = plc.triangles[t];
+    triangle_size[t] = std::min(triangle_size[t], std::max(size, options.min_size));
     add({plc.points[a], plc.points[b], plc.points[c], size, 3, true});
   }
   for (std::size_t s = 0; s < plc.segments.size(); ++s) {

@@ -1,0 +1,208 @@
+#include "sizing/proximity.h"
+
+#include <unordered_set>
+
+#include "base/random.h"
+#include "sizing/shared_edges.h"
+
+namespace dm {
+
+namespace {
+
+constexpr double kFree = 2.4, kTight = 1.8;  // size per width; see the header
+constexpr double kTightWithin = 2;           // the other side is tight up to this many widths
+constexpr double kOpposed = 0.5;             // cosine between ray and normal
+constexpr int kDeepestSplit = 10;
+constexpr std::int64_t kMostPlaces = 150'000;
+// Walls and gaps may cost this many times the elements of the rest, and this many in any case.
+constexpr double kBudgetFactor = 3, kBudget = 100'000;
+// Elements per h^2 of boundary: one side of a thin wall, and what grows from a boundary into a thick solid
+// (the integral of 1 / (0.106 (h + g z)^3) over the depth z), times g.
+constexpr double kWallElements = 6, kGrownElements = 4.7;
+
+struct Patch {
+  std::array<Vec3, 3> corner;
+  double size;
+  double curvature;  // of the two sides, the larger
+  bool wall;
+};
+
+class Prober {
+ public:
+  Prober(const Plc& plc, const Geometry& geometry, const BoundaryTree& boundary, const SizeOptions& options)
+      : plc_(plc),
+        geometry_(geometry),
+        boundary_(boundary),
+        shared_(plc),
+        per_width_(2 / options.elements_across) {
+    epsilon_ = 1e-9 * norm(boundary.box().extent());
+  }
+
+  void probe(Index t, double local_size) {
+    const auto [a, b, c] = plc_.triangles[t];
+    triangle_ = t;
+    face_ = plc_.triangle_face[t];
+    local_size_ = local_size;
+    const std::array<Vec3, 3> p{plc_.points[a], plc_.points[b], plc_.points[c]};
+    const Vec3 normal = area_vector(p[0], p[1], p[2]);
+    if (!(norm2(normal) > 0)) return;
+    normal_ = normalized(normal);
+    if (longest(p) < local_size && !first_in_its_neighbourhood(p)) return;
+    visit(p, 0);
+  }
+  std::vector<Patch> patches;
+
+ private:
+  static double longest(const std::array<Vec3, 3>& p) {
+    return std::sqrt(std::max({norm2(p[1] - p[0]), norm2(p[2] - p[1]), norm2(p[0] - p[2])}));
+  }
+
+  // Of the triangles of a fine tessellation one per face and cube of half the size is enough.
+  bool first_in_its_neighbourhood(const std::array<Vec3, 3>& p) {
+    const Vec3 q = (2 / (3 * local_size_)) * (p[0] + p[1] + p[2] - 3.0 * boundary_.box().low);
+    Random random(0, face_, static_cast<std::int64_t>(q.x), static_cast<std::int64_t>(q.y),
+                  static_cast<std::int64_t>(q.z));
+    return seen_.insert(random.next()).second;
+  }
+
+  // Is the width t between the two faces that of a wedge?  In a wedge of angle alpha, t = x tan(alpha) at the
+  // distance x from the common edge; in a cusp it is half of that.
+  bool wedge(const Vec3& p, const RayHit& hit) const {
+    const Index other = plc_.triangle_face[hit.triangle];
+    if (other == face_) return false;
+    const double x = shared_.distance(face_, other, p);
+    if (x == HUGE_VAL) return false;
+    const double cosine = std::min(1.0, std::abs(hit.cosine));
+    const double expected = x * std::sqrt(1 - cosine * cosine) / cosine;
+    return expected > 0.5 * hit.distance;
+  }
+
+  struct Width {
+    double t = HUGE_VAL;
+    Index face = -1;
+  };
+  Width width(const Vec3& p, const Vec3& direction, double range) const {
+    const RayHit hit = boundary_.first_hit(p, direction, epsilon_, range, triangle_);
+    if (hit.triangle < 0 || std::abs(hit.cosine) < kOpposed || wedge(p, hit)) return {};
+    return {hit.distance, plc_.triangle_face[hit.triangle]};
+  }
+
+  // Size by the widths on both sides of a place, infinity = none.
+  double size_at(const Vec3& p) {
+    ++places_;
+    const double range = kTightWithin * local_size_ / (kTight * per_width_);
+    const auto& solids = plc_.face_solids[face_];
+    const Width w[2] = {width(p, -normal_, range), width(p, normal_, range)};
+    double size = HUGE_VAL;
+    for (int side = 0; side < 2; ++side) {
+      const double t = w[side].t, behind = w[1 - side].t;
+      if (t == HUGE_VAL) continue;
+      const bool wall = solids[side] > 0;
+      const bool tight = behind <= kTightWithin * t || (wall && solids[1 - side] > 0);
+      const double h = (tight ? kTight : kFree) * t * per_width_;
+      if (h < size) size = h, other_face_ = w[side].face, wall_ = wall;
+    }
+    return size;
+  }
+
+  void visit(const std::array<Vec3, 3>& p, int depth) {
+    const Vec3 middle = (1.0 / 3) * (p[0] + p[1] + p[2]);
+    const double edge = longest(p);
+    double low = size_at(middle), high = low;
+    if (edge > std::min(local_size_, low))
+      for (const Vec3& corner : p) {
+        const double s = size_at(0.9 * corner + 0.1 * middle);
+        low = std::min(low, s);
+        high = std::max(high, s);
+      }
+    const bool found = low < local_size_;
+    const bool even = std::min(high, local_size_) <= 1.5 * low;
+    const bool enough =
+        found ? (even || edge <= 2 * low) && edge <= 16 * local_size_ : edge <= 4 * local_size_;
+    if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
+      if (found) patches.push_back({p, low, curvature(middle), wall_});
+      return;
+    }
+    const Vec3 q[3] = {0.5 * (p[0] + p[1]), 0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0])};
+    visit({p[0], q[0], q[2]}, depth + 1);
+    visit({q[0], p[1], q[1]}, depth + 1);
+    visit({q[2], q[1], p[2]}, depth + 1);
+    visit({q[0], q[1], q[2]}, depth + 1);
+  }
+
+  double curvature(const Vec3& p) const {
+    const double own = geometry_.is_plane(face_) ? 0 : geometry_.curvature(face_, p);
+    const bool flat = other_face_ < 0 || geometry_.is_plane(other_face_);
+    return std::max(own, flat ? 0 : geometry_.curvature(other_face_, p));
+  }
+
+  const Plc& plc_;
+  const Geometry& geometry_;
+  const BoundaryTree& boundary_;
+  SharedEdges shared_;
+  double per_width_, epsilon_ = 0, local_size_ = 0;
+  Index triangle_ = -1, face_ = -1, other_face_ = -1;
+  Vec3 normal_;
+  bool wall_ = false;
+  std::int64_t places_ = 0;
+  std::unordered_set<std::uint64_t> seen_;
+};
+
+double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
+
+// The smallest size at which walls and gaps stay within their budget of elements.
+double affordable(const std::vector<Patch>& patches, double growth, double budget, double from, double to) {
+  const auto cost = [&](double floor) {
+    double sum = 0;
+    for (const Patch& patch : patches) {
+      const double h = std::max(patch.size, floor);
+      sum += (kWallElements + (patch.wall ? 0 : kGrownElements / growth)) * area(patch.corner) / (h * h);
+    }
+    return sum;
+  };
+  if (cost(from) <= budget) return from;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = std::sqrt(from * to);
+    (cost(middle) <= budget ? to : from) = middle;
+  }
+  return to;
+}
+
+}  // namespace
+
+ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const BoundaryTree& boundary,
+                              const SizeOptions& options, const SizeLimits& limits,
+                              const std::vector<double>& triangle_size, Context& context,
+                              std::vector<SizeSource>& sources) {
+  ProximityResult result{options.max_size, HUGE_VAL};
+  if (!(options.elements_across > 0)) return result;
+  Prober prober(plc, geometry, boundary, options);
+  double others = 0;
+  for (std::size_t t = 0; t < plc.triangles.size(); ++t) {
+    context.poll(0.1 + 0.2 * static_cast<double>(t) / static_cast<double>(plc.triangles.size()));
+    prober.probe(static_cast<Index>(t), triangle_size[t]);
+    const auto [a, b, c] = plc.triangles[t];
+    const double twice = norm(area_vector(plc.points[a], plc.points[b], plc.points[c]));
+    others += 0.5 * twice * kWallElements / (triangle_size[t] * triangle_size[t]);
+  }
+  double floor = limits.proximity;
+  if (!(options.min_size > 0))
+    floor = affordable(prober.patches, options.growth, std::max(kBudget, kBudgetFactor * others), floor,
+                       options.max_size);
+  for (const Patch& patch : prober.patches) {
+    double size = std::max(patch.size, floor);
+    if (patch.size < floor && patch.curvature > 0) {
+      // Facets of curved faces must not cross the gap: their sagitta stays below a third of its width.
+      const double t = patch.size / (kFree * 2 / options.elements_across);
+      size = std::min(
+          size, std::max({std::sqrt(8 * t / (3 * patch.curvature)) / 0.8, patch.size, limits.crossing}));
+    }
+    result.wanted = std::min(result.wanted, patch.size);
+    result.finest = std::min(result.finest, size);
+    if (size < options.max_size)
+      sources.push_back({patch.corner[0], patch.corner[1], patch.corner[2], size, 3, true});
+  }
+  return result;
+}
+
+}  // namespace dm
