@@ -25,7 +25,7 @@ void Triangulation::check(bool exact_delaunay) const {
 void Triangulation::check_tetrahedron(Index t) const {
   const Tet& c = corners_[t];
   const std::string name = "tetrahedron " + std::to_string(t);
-  if (flags_[t] & kStamps) broken("stamp", name + " has a stamp left behind");
+  if (flags_[t] & (kInside | kSeen)) broken("stamp", name + " has a stamp left behind");
   for (int i = 0; i < 4; ++i) {
     if (c[i] >= vertex_count() || c[i] < (i == 3 ? ghost : 0)) broken("corner", name + " has no such corner");
     for (int j = 0; j < i; ++j)

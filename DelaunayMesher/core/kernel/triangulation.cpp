@@ -120,57 +120,91 @@ Face Triangulation::find_cavity(const Vec3& p, Index start, bool stop_at_marks, 
                        : search<false>(p, vertex_count(), start, cavity);
 }
 
-// Search over the tetrahedra in conflict, breadth first: cavity.tets is the queue.  The arrays of the cavity
-// are kept longer than needed while it runs, so that the loop writes through plain pointers.
+// Breadth-first search over the tetrahedra in conflict, a level at a time: gather the neighbours not seen
+// yet, test them all, append those in conflict.  No step branches on the outcome of a test, which nothing can
+// predict, and the tests of a level overlap.
 template <bool kStopAtMarks>
 Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cavity) const {
-  std::size_t room = 0, inside = 1, border = 0;
-  Index* tets = nullptr;
-  Face *border_faces = nullptr, *outside_faces = nullptr;
-  const auto make_room = [&](std::size_t size) {
-    room = size;
-    cavity.tets.resize(room);
-    cavity.border.resize(room);
-    cavity.outside.resize(room);
-    tets = cavity.tets.data(), border_faces = cavity.border.data(), outside_faces = cavity.outside.data();
-  };
-  make_room(std::max<std::size_t>(cavity.tets.capacity(), 64));
-  const Tet* corners = corners_.data();
-  const std::array<Face, 4>* neighbours = neighbours_.data();
   std::uint8_t* flags = flags_.data();
-  tets[0] = start;
-  flags[start] |= kInside;
+  cavity.tets.resize(std::max<std::size_t>(cavity.tets.capacity(), 64));
+  cavity.seen.resize(std::max<std::size_t>(cavity.seen.capacity(), 128));
+  cavity.tets[0] = cavity.seen[0] = start;
+  flags[start] |= kInside | kSeen;
+  std::size_t inside = 1, seen = 1;
   Face stopped = -1;
-  for (std::size_t done = 0; done < inside && stopped < 0; ++done) {
-    if (std::max(inside, border) + 4 > room) make_room(2 * room);
-    const Index tet = tets[done];
-    for (int i = 0; i < 4; ++i) {
-      const Face face = neighbours[tet][i];
-      const Index next = face >> 2;
-      unsigned stamp = flags[next] & kStamps;
-      if (stamp == 0) {
-        const Tet& c = corners[next];
-        const bool hit = c[3] == ghost ? ghost_conflict(next, p, number) : finite_conflict(c, p, number);
-        stamp = hit ? kInside : kOutside;
-        flags[next] = static_cast<std::uint8_t>(flags[next] | stamp);
-        if (stamp == kInside) tets[inside++] = next;
+  for (std::size_t level = 0; level < inside && stopped < 0;) {
+    const std::size_t level_end = inside, first = seen;
+    const std::size_t most = seen + 4 * (level_end - level) + 4;
+    if (cavity.seen.size() < most) cavity.seen.resize(2 * most);
+    if (cavity.sign.size() < most) cavity.sign.resize(2 * most);
+    for (std::size_t k = level; k < level_end; ++k)
+      for (const Face face : neighbours_[cavity.tets[k]]) {
+        const Index next = face >> 2;
+        cavity.seen[seen] = next;
+        seen += (flags[next] & kSeen) == 0;
+        flags[next] |= kSeen;
       }
-      if (stamp == kOutside) {
-        border_faces[border] = 4 * tet + i;
-        outside_faces[border++] = face;
-      } else if (kStopAtMarks && (flags[tet] >> i & 1)) {
-        stopped = 4 * tet + i;
-        break;
-      }
-    }
+    if (cavity.tets.size() < inside + seen - first) cavity.tets.resize(2 * (inside + seen));
+    inside = test(p, number, cavity, first, seen, inside);
+    if (kStopAtMarks) stopped = marked_inside({cavity.tets.data() + level, level_end - level});
+    level = level_end;
   }
   cavity.tets.resize(inside);
-  cavity.border.resize(border);
-  cavity.outside.resize(border);
-  for (const Index tet : cavity.tets) flags[tet] &= 15;
-  for (const Face face : cavity.outside) flags[face >> 2] &= 15;
+  if (stopped < 0) collect_border(cavity);
+  for (std::size_t k = 0; k < seen; ++k) flags[cavity.seen[k]] &= kMarks;
   return stopped;
 }
+
+// Tests cavity.seen[first .. end - 1] and appends those in conflict to cavity.tets; returns its new length.
+std::size_t Triangulation::test(const Vec3& p, Index number, Cavity& cavity, std::size_t first,
+                                std::size_t end, std::size_t inside) const {
+  std::uint8_t* flags = flags_.data();
+  const std::int8_t* sign = cavity.sign.data();
+  sphere_tests_(points_.data(), corners_.data(), cavity.seen.data() + first, end - first, p,
+                cavity.sign.data());
+  const Index* seen = cavity.seen.data() + first;
+  Index* tets = cavity.tets.data();
+  for (std::size_t k = 0; k < end - first; ++k) {
+    const Index tet = seen[k];
+    bool hit = sign[k] > 0;
+    if (sign[k] == 0) [[unlikely]]
+      hit = conflict(tet, p, number);
+    tets[inside] = tet;
+    inside += hit;
+    flags[tet] = static_cast<std::uint8_t>(flags[tet] | hit * kInside);
+  }
+  return inside;
+}
+
+// The first marked face of these with both sides in conflict, or -1.
+Face Triangulation::marked_inside(std::span<const Index> tets) const {
+  for (const Index tet : tets) {
+    if ((flags_[tet] & kMarks) == 0) continue;
+    for (int i = 0; i < 4; ++i)
+      if (marked(tet, i) && (flags_[neighbours_[tet][i] >> 2] & kInside)) return 4 * tet + i;
+  }
+  return -1;
+}
+
+void Triangulation::collect_border(Cavity& cavity) const {
+  const std::size_t room = 4 * cavity.tets.size();
+  cavity.border.resize(room);
+  cavity.outside.resize(room);
+  Face *border = cavity.border.data(), *outside = cavity.outside.data();
+  const std::uint8_t* flags = flags_.data();
+  std::size_t n = 0;
+  for (const Index tet : cavity.tets) {
+    const std::array<Face, 4>& neighbours = neighbours_[tet];
+    for (int i = 0; i < 4; ++i) {
+      border[n] = 4 * tet + i;
+      outside[n] = neighbours[i];
+      n += (flags[neighbours[i] >> 2] & kInside) == 0;
+    }
+  }
+  cavity.border.resize(n);
+  cavity.outside.resize(n);
+}
+
 template Face Triangulation::search<false>(const Vec3&, Index, Index, Cavity&) const;
 
 void Triangulation::reserve_slots(std::size_t wanted) {

@@ -26,6 +26,7 @@
 
 #include "base/vec3.h"
 #include "kernel/array.h"
+#include "kernel/sphere_tests.h"
 
 namespace dm {
 
@@ -51,6 +52,8 @@ struct Cavity {
   };
   std::vector<Made> made;
   std::vector<Face> edge_faces;
+  std::vector<Index> seen;  // scratch of find_cavity(): the tetrahedra tested
+  std::vector<std::int8_t> sign;
 };
 
 // The slots that a thread may fill: first the free ones (last in, first out), then next .. end - 1.
@@ -124,7 +127,7 @@ class Triangulation {
   friend class TriangulationBuilder;
   static constexpr Index free_slot = -2;
   // flags_: bits 0-3 the marks, bits 4 and 5 the stamps of find_cavity, which leaves none behind.
-  static constexpr std::uint8_t kInside = 16, kOutside = 32, kStamps = kInside | kOutside;
+  static constexpr std::uint8_t kMarks = 15, kInside = 16, kSeen = 32;
   static constexpr int kLocalCorners = 64;  // corners of a cavity that link() can number in its table
 
   bool conflict(Index tet, const Vec3& p, Index number) const;
@@ -135,6 +138,10 @@ class Triangulation {
   Index walk(const Vec3& p, Index hint) const;
   template <bool kStopAtMarks>
   Face search(const Vec3& p, Index number, Index start, Cavity& cavity) const;
+  std::size_t test(const Vec3& p, Index number, Cavity& cavity, std::size_t first, std::size_t end,
+                   std::size_t inside) const;
+  Face marked_inside(std::span<const Index> tets) const;
+  void collect_border(Cavity& cavity) const;
   void reserve_slots(std::size_t wanted);
   void resize_slots(std::size_t size);
   void fill(Index vertex, Cavity& cavity, Slots& slots);
@@ -155,6 +162,7 @@ class Triangulation {
   mutable Array<std::uint8_t> flags_;
   std::vector<Index> vertex_tet_;  // entry 0 is the ghost's
   Slots slots_;
+  SphereTests sphere_tests_ = sphere_tests();
   std::vector<Index> numbers_;  // while building: the caller's number of a vertex; afterwards empty
 };
 
