@@ -7,8 +7,10 @@
 namespace dm {
 namespace {
 
-constexpr int kRounds = 6;  // over the bad elements, for each kind of node
-constexpr int kSteps = 6;   // per node and visit
+constexpr double kSharpness = 30;   // of the smooth minimum
+constexpr std::size_t kPasses = 2;  // over the kinds of nodes
+constexpr int kRounds = 6;          // over the bad elements, for each kind of node
+constexpr int kSteps = 6;           // per node and visit
 
 // Tetrahedra at each corner.
 class Stars {
@@ -52,15 +54,18 @@ class Repairer {
       : mesh_(mesh), geometry_(geometry), context_(context), stars_(mesh) {}
 
   std::vector<Index> run(std::vector<Index> bad) {
-    for (const auto kind : {&Repairer::move_interior_middles, &Repairer::move_interior_corners,
-                            &Repairer::slide_boundary_middles}) {
+    constexpr std::array kinds = {&Repairer::move_interior_middles, &Repairer::move_interior_corners,
+                                  &Repairer::slide_boundary_middles};
+    for (std::size_t pass = 0; pass < kPasses * kinds.size(); ++pass) {
+      const auto kind = kinds[pass % kinds.size()];
       for (int round = 0; round < kRounds && !bad.empty(); ++round) {
         bool moved = false;
+        touched_ = bad;
         for (Index t : bad) {
           context_.poll(0.5);
           if (mesh_.ratio(t) < kGoodRatio) moved = (this->*kind)(t) || moved;
         }
-        std::erase_if(bad, [&](Index t) { return mesh_.ratio(t) >= kGoodRatio; });
+        bad = still_bad();
         if (!moved) break;
       }
     }
@@ -104,6 +109,26 @@ class Repairer {
     return moved;
   }
 
+  // A step that helps the worst element may cost its neighbours: they are looked at again.
+  std::vector<Index> still_bad() {
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    std::erase_if(touched_, [&](Index t) { return mesh_.ratio(t) >= kGoodRatio; });
+    return touched_;
+  }
+
+  // Smooth minimum of all coefficients, each relative to the largest of its element: a step can then help one
+  // element while another one is still the worst.
+  double soft_worst(const std::vector<Index>& elements) const {
+    double sum = 0;
+    for (Index t : elements) {
+      const auto c = jacobian_coefficients(mesh_.nodes(t));
+      double scale = 0;
+      for (const double b : c) scale = std::max(scale, std::abs(b));
+      for (const double b : c) sum += std::exp(-kSharpness * b / scale);
+    }
+    return -std::log(sum) / kSharpness;
+  }
   double worst(const std::vector<Index>& elements) const {
     double w = 1;
     for (Index t : elements) w = std::min(w, mesh_.ratio(t));
@@ -133,7 +158,7 @@ class Repairer {
       Vec3 q = from;
       q[i] += h;
       place(m, q);
-      g[i] = (worst(m.elements) - base) / h;
+      g[i] = (soft_worst(m.elements) - base) / h;
     }
     place(m, from);
     return g;
@@ -145,14 +170,14 @@ class Repairer {
     const Entity entity = mesh_.entity(m.node);
     const bool corner = mesh_.is_corner(m.node);
     bool moved = false;
-    double now = worst(m.elements);
-    for (int step = 0; step < kSteps && now < kGoodRatio; ++step) {
+    double now = soft_worst(m.elements);
+    for (int step = 0; step < kSteps && worst(m.elements) < kGoodRatio; ++step) {
       const Vec3 direction = normalized(gradient(m, now)), from = mesh_.position(m.node);
       const AngleRange before = corner ? angles(m.elements) : AngleRange{};
       bool better = false;
-      for (double s = 0.1; s > 0.002 && !better; s *= 0.5) {
+      for (double s = 0.2; s > 0.002 && !better; s *= 0.5) {
         place(m, geometry_.project(entity, from + s * m.size * direction));
-        const double trial = worst(m.elements);
+        const double trial = soft_worst(m.elements);
         const AngleRange after = corner ? angles(m.elements) : AngleRange{};
         better = trial > now + 1e-4 && after.min >= std::min(before.min, 20.0) &&
                  after.max <= std::max(before.max, 150.0);
@@ -164,6 +189,7 @@ class Repairer {
       }
       moved = true;
     }
+    if (moved) touched_.insert(touched_.end(), m.elements.begin(), m.elements.end());
     return moved;
   }
 
@@ -177,7 +203,8 @@ class Repairer {
     straightened.erase(std::unique(straightened.begin(), straightened.end()), straightened.end());
     return straightened;
   }
-  // A straight edge can only spoil a neighbour whose other edges bend: those are straightened in turn.
+  // The one edge that helps most; if none does, all six.  A straight edge can only spoil a neighbour whose
+  // other edges bend: that one is straightened in turn.
   void straighten_element(Index start, std::vector<Index>& straightened) {
     std::vector<Index> pending{start};
     while (!pending.empty()) {
@@ -185,19 +212,41 @@ class Repairer {
       pending.pop_back();
       if (mesh_.ratio(t) > 0) continue;
       straightened.push_back(t);
+      if (straighten_best_edge(t)) continue;
       for (int i = 0; i < 6; ++i) {
         mesh_.position(mesh_.middle(t, i)) = mesh_.straight_middle(t, i);
-        const Tet& c = mesh_.corners(t);
-        for (Index e : stars_.at_edge(c[kTetEdges[i][0]], c[kTetEdges[i][1]]))
+        for (Index e : around(t, i))
           if (e != t && mesh_.ratio(e) <= 0) pending.push_back(e);
       }
     }
+  }
+  bool straighten_best_edge(Index t) {
+    int best = -1;
+    double best_ratio = 0;
+    for (int i = 0; i < 6; ++i) {
+      Vec3& middle = mesh_.position(mesh_.middle(t, i));
+      const Vec3 curved = middle;
+      middle = mesh_.straight_middle(t, i);
+      const double ratio = worst(around(t, i));
+      middle = curved;
+      if (ratio <= best_ratio) continue;
+      best = i;
+      best_ratio = ratio;
+    }
+    if (best < 0) return false;
+    mesh_.position(mesh_.middle(t, best)) = mesh_.straight_middle(t, best);
+    return true;
+  }
+  std::vector<Index> around(Index t, int edge) const {
+    const Tet& c = mesh_.corners(t);
+    return stars_.at_edge(c[kTetEdges[edge][0]], c[kTetEdges[edge][1]]);
   }
 
   CurvedMesh& mesh_;
   const Geometry& geometry_;
   Context& context_;
   Stars stars_;
+  std::vector<Index> touched_;
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "order/second_order.h"
 
-#include <string>
+#include <algorithm>
 
 #include "order/curved_mesh.h"
 #include "order/edge_table.h"
@@ -55,8 +55,10 @@ void classify_edges(const VolumeMesh& mesh, const EdgeTable& table, SecondOrder&
   }
 }
 
-void place_middles(const VolumeMesh& mesh, const EdgeTable& table, const Geometry& geometry,
-                   SecondOrder& order, Context& context) {
+// Returns the edges that stay straight because their projection is out of reach, sorted.
+std::vector<Index> place_middles(const VolumeMesh& mesh, const EdgeTable& table, const Geometry& geometry,
+                                 SecondOrder& order, Context& context) {
+  std::vector<Index> out_of_reach;
   order.points.resize(table.count());
   for (Index e = 0; e < table.count(); ++e) {
     if (e % kPollEvery == 0) context.poll(0.4 * e / table.count());
@@ -66,8 +68,27 @@ void place_middles(const VolumeMesh& mesh, const EdgeTable& table, const Geometr
     const Entity entity = order.point_entity[e];
     if (entity.dimension == 3) continue;
     const Vec3 p = geometry.project(entity, middle);
-    if (distance(p, middle) < kFarthest * distance(mesh.points[a], mesh.points[b])) order.points[e] = p;
+    if (distance(p, middle) < kFarthest * distance(mesh.points[a], mesh.points[b])) {
+      order.points[e] = p;
+    } else {
+      out_of_reach.push_back(e);
+    }
   }
+  return out_of_reach;
+}
+
+// Adds the tetrahedra that have one of the edges.
+void add_straight(const std::vector<Index>& edges, Index corner_count, SecondOrder& order) {
+  if (edges.empty()) return;
+  std::vector<Index>& list = order.straightened;
+  for (std::size_t t = 0; t < order.tet_nodes.size(); ++t)
+    for (Index node : order.tet_nodes[t])
+      if (std::binary_search(edges.begin(), edges.end(), node - corner_count)) {
+        list.push_back(static_cast<Index>(t));
+        break;
+      }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 }  // namespace
@@ -77,7 +98,7 @@ SecondOrder make_second_order(VolumeMesh& mesh, const Geometry& geometry, Contex
   SecondOrder order;
   const EdgeTable table = number_edges(mesh, order);
   classify_edges(mesh, table, order);
-  place_middles(mesh, table, geometry, order, context);
+  const std::vector<Index> straight = place_middles(mesh, table, geometry, order, context);
   CurvedMesh curved(mesh, order);
   std::vector<Index> bad;
   for (Index t = 0; t < curved.tet_count(); ++t) {
@@ -85,6 +106,7 @@ SecondOrder make_second_order(VolumeMesh& mesh, const Geometry& geometry, Contex
     if (curved.curved(t) && curved.ratio(t) < kGoodRatio) bad.push_back(t);
   }
   order.straightened = repair(curved, geometry, bad, context);
+  add_straight(straight, static_cast<Index>(mesh.points.size()), order);
   return order;
 }
 

@@ -1,0 +1,146 @@
+#include "optimisation/optimise.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "optimisation/check_mesh.h"
+#include "optimisation/quality.h"
+#include "sample_meshes.h"
+
+using namespace dm;
+
+namespace {
+
+OptimiseReport run(sample::Sample& s, Context& context) {
+  const Geometry geometry(s.plc, s.records);
+  SizeOptions sizes;
+  sizes.max_size = 1;
+  const SizeField field(s.plc, geometry, sizes, context);
+  const auto report = optimise(s.mesh, geometry, field, {}, context);
+  check_volume_mesh(s.mesh);
+  check_on_geometry(s.mesh, geometry, 1e-9);
+  return report;
+}
+
+double mean_angle(const VolumeMesh& mesh) {
+  double sum = 0;
+  for (const Tet& t : mesh.tets)
+    sum += dihedral_range(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]).min;
+  return sum / static_cast<double>(mesh.tets.size());
+}
+
+}  // namespace
+
+TEST_CASE("the angles get better at both ends and on average, the volume stays") {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    auto s = sample::box(6, 0.25, seed);
+    const auto before = sample::angles(s.mesh);
+    const double mean = mean_angle(s.mesh);
+    Context context;
+    const auto report = run(s, context);
+    const auto after = sample::angles(s.mesh);
+    CHECK(report.min_before == doctest::Approx(before.min));
+    CHECK(report.max_before == doctest::Approx(before.max));
+    CHECK(report.min_after == doctest::Approx(after.min));
+    CHECK(report.max_after == doctest::Approx(after.max));
+    CHECK(after.min > before.min);
+    CHECK(after.max < before.max);
+    CHECK(mean_angle(s.mesh) > mean);
+    CHECK(sample::volume(s.mesh) == doctest::Approx(216));
+    CHECK(report.flipped > 0);
+    CHECK(report.smoothed > 0);
+  }
+}
+
+TEST_CASE("the boundary keeps its triangles and its CAD elements") {
+  auto s = sample::cylinder(1, 2, 12, 4);
+  const auto faces = s.mesh.triangle_face;
+  const auto edges = s.mesh.segment_edge;
+  Context context;
+  run(s, context);
+  CHECK(s.mesh.triangles.size() == faces.size());
+  CHECK(s.mesh.triangle_face == faces);
+  CHECK(s.mesh.segment_edge == edges);
+}
+
+TEST_CASE("same mesh, same bytes") {
+  auto a = sample::box(5, 0.3, 9), b = a;
+  Context first, second;
+  second.threads = 4;
+  run(a, first);
+  run(b, second);
+  REQUIRE(a.mesh.points.size() == b.mesh.points.size());
+  CHECK(std::memcmp(a.mesh.points.data(), b.mesh.points.data(), a.mesh.points.size() * sizeof(Vec3)) == 0);
+  CHECK(a.mesh.tets == b.mesh.tets);
+  CHECK(a.mesh.neighbours == b.mesh.neighbours);
+}
+
+TEST_CASE("optimising twice changes little and spoils nothing") {
+  auto s = sample::box(5, 0.25, 4);
+  Context context;
+  run(s, context);
+  const auto once = sample::angles(s.mesh);
+  run(s, context);
+  const auto twice = sample::angles(s.mesh);
+  CHECK(twice.min >= std::min(once.min, 34.0) - 1e-9);
+  CHECK(twice.max <= std::max(once.max, 130.0) + 1e-9);
+}
+
+TEST_CASE("two solids keep the faces between them") {
+  auto s = sample::box(4, 0.2, 6);
+  VolumeMesh& m = s.mesh;
+  // Split at x = 2: the points there form CAD face 6.
+  const Index n = 4;
+  for (std::size_t v = 0; v < m.points.size(); ++v) {
+    if (static_cast<Index>(v) / ((n + 1) * (n + 1)) != 2) continue;
+    m.points[v].x = 2;
+    Entity& e = m.point_entity[v];
+    e = e.dimension == 3 ? Entity{2, 6} : Entity{0, 0};
+  }
+  for (std::size_t t = 0; t < m.tets.size(); ++t) {
+    double x = 0;
+    for (Index v : m.tets[t]) x += m.points[v].x / 4;
+    m.tet_solid[t] = x > 2 ? 2 : 1;
+  }
+  for (std::size_t t = 0; t < m.tets.size(); ++t)
+    for (int i = 0; i < 4; ++i) {
+      const Index o = m.neighbours[t][i];
+      if (o < 0 || m.tet_solid[t] != 1 || m.tet_solid[o / 4] != 2) continue;
+      const Tet& c = m.tets[t];
+      static constexpr int kFace[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+      m.triangles.push_back({c[kFace[i][0]], c[kFace[i][1]], c[kFace[i][2]]});
+      m.triangle_face.push_back(6);
+    }
+  s.records.faces.push_back({SurfaceKind::plane, {2, 0, 0}, {1, 0, 0}, 0, 0, -1});
+  s.plc = sample::boundary_plc(m, 7, 12);
+  s.plc.face_solids[6] = {1, 2};
+  s.plc.face_solids[1] = {2, 0};
+  s.plc.solid_count = 2;
+  check_volume_mesh(m);
+  const Geometry geometry(s.plc, s.records);
+  Context context;
+  SizeOptions sizes;
+  sizes.max_size = 1;
+  const SizeField field(s.plc, geometry, sizes, context);
+  const auto before = sample::angles(m);
+  optimise(m, geometry, field, {}, context);
+  check_volume_mesh(m);
+  check_on_geometry(m, geometry, 1e-9);
+  CHECK(sample::angles(m).min >= before.min);
+  double first = 0;
+  for (std::size_t t = 0; t < m.tets.size(); ++t) {
+    const Tet& c = m.tets[t];
+    if (m.tet_solid[t] == 1)
+      first +=
+          dot(area_vector(m.points[c[0]], m.points[c[1]], m.points[c[2]]), m.points[c[3]] - m.points[c[0]]) /
+          6;
+  }
+  CHECK(first == doctest::Approx(32));
+}
+
+TEST_CASE("it can be cancelled") {
+  auto s = sample::box(5, 0.25, 4);
+  Context context([](const char* stage, double) { return std::strcmp(stage, "optimisation") != 0; });
+  CHECK_THROWS_AS(run(s, context), Cancelled);
+}

@@ -1,0 +1,109 @@
+#include "optimisation/smoothing.h"
+
+#include <doctest/doctest.h>
+
+#include "optimisation/check_mesh.h"
+#include "sample_meshes.h"
+
+using namespace dm;
+
+TEST_CASE("the fan gives the badness of the plain formula, for both sides") {
+  Random random(5);
+  Fan fan;
+  fan.clear();
+  std::vector<std::array<Vec3, 3>> bases;
+  for (int i = 0; i < 37; ++i) {
+    bases.push_back({random.in_ball(), random.in_ball(), random.in_ball()});
+    fan.add(bases[i][0], bases[i][1], bases[i][2]);
+  }
+  const Vec3 apex = random.in_ball();
+  double bad[Fan::kCapacity], turned[Fan::kCapacity];
+  fan_badness(fan, apex, 1, bad);
+  fan_badness(fan, apex, -1, turned);
+  double sum = 0;
+  AngleCosines extremes;
+  for (int i = 0; i < 37; ++i) {
+    const auto& [a, b, c] = bases[i];
+    CHECK(bad[i] == doctest::Approx(badness(angle_cosines(a, b, c, apex))));
+    CHECK(turned[i] == doctest::Approx(badness(angle_cosines(a, c, b, apex))));
+    CHECK((bad[i] == kInverted) != (turned[i] == kInverted));
+    sum += bad[i] * bad[i];
+    extremes.include(angle_cosines(a, b, c, apex));
+  }
+  const FanScore score = fan_score(fan, apex, true, bad);
+  CHECK(score.sum == doctest::Approx(sum));
+  CHECK(score.extremes.sharp == doctest::Approx(extremes.sharp));
+  CHECK(score.extremes.blunt == doctest::Approx(extremes.blunt));
+}
+
+TEST_CASE("a flat fan is inverted, not a number") {
+  Fan fan;
+  fan.clear();
+  fan.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  fan.add({0, 0, 0}, {0, 0, 0}, {0, 1, 0});
+  double bad[Fan::kCapacity];
+  fan_badness(fan, {0.2, 0.2, 0}, 1, bad);
+  CHECK(bad[0] == kInverted);
+  CHECK(bad[1] == kInverted);
+}
+
+TEST_CASE("an interior point goes back to the middle of its star") {
+  auto s = sample::box(2, 0);
+  const Geometry geometry(s.plc, s.records);
+  s.mesh.points[13] = {1.3, 0.8, 1.25};
+  EditMesh edit(s.mesh);
+  Smoother smoother(edit, geometry);
+  const double before = sample::angles(s.mesh).min;
+  for (int i = 0; i < 10; ++i) smoother.smooth_worst(13, 4);
+  CHECK(sample::angles(s.mesh).min > before + 5);
+  check_volume_mesh(s.mesh);
+}
+
+TEST_CASE("smoothing never lowers the worst of a star and keeps points on their CAD elements") {
+  auto s = sample::box(4, 0.3, 11);
+  const Geometry geometry(s.plc, s.records);
+  EditMesh edit(s.mesh);
+  Smoother smoother(edit, geometry);
+  int moved = 0;
+  for (const bool soft : {true, false, true, false})
+    for (Index v = 0; v < edit.vertex_count(); ++v) {
+      AngleCosines before, after;
+      for (Index t : edit.star(v)) before.include(edit.cosines(edit.tet(t)));
+      const Vec3 old = edit.point(v);
+      const bool changed = soft ? smoother.smooth_soft(v, 2) : smoother.smooth_worst(v, 2);
+      for (Index t : edit.star(v)) {
+        after.include(edit.cosines(edit.tet(t)));
+        CHECK(edit.bad(t) == doctest::Approx(badness(edit.cosines(edit.tet(t)))));
+      }
+      CHECK(after.sharp <= std::max(before.sharp, 0.8291));
+      CHECK(after.blunt >= std::min(before.blunt, -0.6429));
+      CHECK(changed == !(edit.point(v) == old));
+      if (edit.entity(v).dimension == 0) CHECK(!changed);
+      moved += changed;
+    }
+  CHECK(moved > 100);
+  check_volume_mesh(s.mesh);
+  check_on_geometry(s.mesh, geometry, 1e-9);
+}
+
+TEST_CASE("boundary points slide on a curved face") {
+  auto s = sample::cylinder(1, 2, 9, 3);
+  const Geometry geometry(s.plc, s.records);
+  for (std::size_t v = 0; v < s.mesh.points.size(); ++v) {
+    const Entity e = s.mesh.point_entity[v];
+    const Vec3 shift = 0.12 * Random(3, v).in_ball();
+    if (e.dimension >= 2) s.mesh.points[v] = geometry.project(e, s.mesh.points[v] + shift);
+  }
+  check_volume_mesh(s.mesh);
+  const auto before = sample::angles(s.mesh);
+  EditMesh edit(s.mesh);
+  Smoother smoother(edit, geometry);
+  int moved = 0;
+  for (int i = 0; i < 4; ++i)
+    for (Index v = 0; v < edit.vertex_count(); ++v)
+      if (edit.entity(v).dimension < 3) moved += smoother.smooth_worst(v, 2);
+  CHECK(moved > 0);
+  CHECK(sample::angles(s.mesh).min >= before.min);
+  check_volume_mesh(s.mesh);
+  check_on_geometry(s.mesh, geometry, 1e-9);
+}
