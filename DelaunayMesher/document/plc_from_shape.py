@@ -28,8 +28,9 @@ from .touching import (
 )
 
 LINEAR_SHARE = 0.02  # of the element size
-COARSEST, FINEST = 1.0 / 500.0, 1.0 / 20000.0  # linear deflection as shares of the diagonal
-ANGULAR = 0.3  # radians
+WALL_SHARE = 0.1  # of the thickness of the thinnest solid
+COARSEST, FINEST = 1.0 / 500.0, 1.0 / 3000.0  # linear deflection as shares of the diagonal; OCC is slow below
+ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
 # Tried in turn until the triangles close: (factor on the linear, factor on the angular deflection).
 ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (4.0, 1.6))
 
@@ -57,14 +58,46 @@ def convert(shape, options=None, keep=()):
     keep = set(keep) | set(getattr(options, "sizes", None) or ())
     linear, angular = deflections(shape, options)
     faults = None
-    for linear_factor, angular_factor in ATTEMPTS if shape.isValid() else ATTEMPTS[:1]:
-        mesh = tessellate(shape, linear * linear_factor, angular * angular_factor)
-        sides = face_sides(mesh.faces, mesh.shape.Solids)
-        rows, edges = open_triangles(mesh.triangles, sides[mesh.triangle_face], len(mesh.points))
-        if not len(rows):
-            return assemble(mesh, sides, keep)
-        faults = faults or (mesh, rows, edges)
+    for linear_factor, angular_factor in ATTEMPTS:
+        mesh, sides, fault = attempt(shape, linear * linear_factor, angular * angular_factor)
+        if not fault:
+            return assemble(*finer_for_walls(shape, mesh, sides, linear * linear_factor, angular), keep)
+        faults = faults or (mesh, *fault)
+        if not shape.isValid():  # another tessellation will not mend it
+            break
     raise open_shape(shape, *faults)
+
+
+def attempt(shape, linear, angular):
+    """(Tessellation, sides (F, 2), fault): fault is None when the triangles enclose every solid."""
+    mesh = tessellate(shape, linear, angular)
+    sides = face_sides(mesh.faces, mesh.shape.Solids)
+    rows, edges = open_triangles(mesh.triangles, sides[mesh.triangle_face], len(mesh.points))
+    return mesh, sides, (rows, edges) if len(rows) else None
+
+
+def finer_for_walls(shape, mesh, sides, linear, angular):
+    """(Tessellation, sides): again and finer when the facets of a thin curved wall might cross."""
+    wall = thinnest(mesh, sides)
+    wanted = max(WALL_SHARE * wall, FINEST * shape.BoundBox.DiagonalLength)
+    if wanted < 0.8 * linear:
+        finer, finer_sides, fault = attempt(shape, wanted, angular)
+        if not fault:
+            return finer, finer_sides
+    return mesh, sides
+
+
+def thinnest(mesh, sides):
+    """Smallest mean thickness of a solid with curved faces: twice its volume over its surface (mm)."""
+    sides = sides[mesh.triangle_face]
+    count = len(mesh.shape.Solids)
+    volumes = np.abs(solid_volumes(mesh.points, mesh.triangles, sides, count))
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    flat = np.array([isinstance(face.Surface, Part.Plane) for face in mesh.faces])[mesh.triangle_face]
+    surface = sum(np.bincount(side, weights=areas, minlength=count + 1)[1:] for side in sides.T)
+    curved = sum(np.bincount(side[~flat], minlength=count + 1)[1:] for side in sides.T) > 0
+    return (2.0 * volumes / np.maximum(surface, 1e-300))[curved].min(initial=np.inf)
 
 
 def check_solid(shape):
@@ -94,7 +127,7 @@ def deflections(shape, options):
     per_circle = getattr(options, "elements_per_circle", None) or 0.0
     angular = min(ANGULAR, np.pi / per_circle) if per_circle > 0 else ANGULAR
     linear = min(max(LINEAR_SHARE * size, FINEST * diagonal), COARSEST * diagonal)
-    return linear, max(angular, 0.05)
+    return linear, max(angular, FINEST_ANGULAR)
 
 
 def assemble(mesh, sides, keep):
