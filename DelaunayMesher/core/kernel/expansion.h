@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace dm {
 
@@ -81,31 +82,46 @@ struct Expansion {
     std::copy_n(other.term, size, term);
     return *this;
   }
+  void negate() {
+    for (int i = 0; i < size; ++i) term[i] = -term[i];
+  }
   int sign() const { return size == 0 ? 0 : term[size - 1] > 0 ? 1 : -1; }
 };
 
-template <int N>
-Expansion<N> operator-(Expansion<N> a) {
-  for (int i = 0; i < a.size; ++i) a.term[i] = -a.term[i];
-  return a;
+// r = a + b and r = a * b, for results that are too large to hand over by value.
+template <int N, int M>
+void add(const Expansion<N>& a, const Expansion<M>& b, Expansion<N + M>& r) {
+  r.size = sum_expansions(a.term, a.size, b.term, b.size, r.term);
+}
+template <int N, int M>
+void multiply(const Expansion<N>& a, const Expansion<M>& b, Expansion<2 * N * M>& r) {
+  const auto old = std::make_unique_for_overwrite<double[]>(2 * N * (M - 1) + 1);
+  double row[2 * N];
+  r.size = 0;
+  for (int j = 0; j < b.size; ++j) {
+    const int n = scale_expansion(a.term, a.size, b.term[j], row);
+    std::copy_n(r.term, r.size, old.get());
+    r.size = sum_expansions(old.get(), r.size, row, n, r.term);
+  }
 }
 template <int N, int M>
 Expansion<N + M> operator+(const Expansion<N>& a, const Expansion<M>& b) {
   Expansion<N + M> r;
-  r.size = sum_expansions(a.term, a.size, b.term, b.size, r.term);
+  add(a, b, r);
   return r;
 }
 template <int N, int M>
-Expansion<N + M> operator-(const Expansion<N>& a, const Expansion<M>& b) {
-  return a + (-b);
+Expansion<N + M> operator-(const Expansion<N>& a, Expansion<M> b) {
+  b.negate();
+  return a + b;
 }
+// For short results; the longer factor should come second.
 template <int N, int M>
 Expansion<2 * N * M> operator*(const Expansion<N>& a, const Expansion<M>& b) {
-  Expansion<2 * N * M> r;
-  Expansion<2 * N * M> old;
-  double row[2 * N];
-  for (int j = 0; j < b.size; ++j) {
-    const int n = scale_expansion(a.term, a.size, b.term[j], row);
+  Expansion<2 * N * M> r, old;
+  double row[2 * M];
+  for (int i = 0; i < a.size; ++i) {
+    const int n = scale_expansion(b.term, b.size, a.term[i], row);
     old = r;
     r.size = sum_expansions(old.term, old.size, row, n, r.term);
   }
