@@ -1,0 +1,126 @@
+"""The commands: what each is called, when it can be used, what it does with the selection."""
+
+import FreeCAD
+import FreeCADGui
+
+from .texts import icon, tr
+
+
+class MeshSolid:
+    """Make a mesh object for the selected solid and open its panel; on a mesh object, open its panel."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("mesh_solid"),
+            "MenuText": tr("Mesh this solid"),
+            "ToolTip": tr(
+                "Tetrahedral FEM mesh of the selected solid by Delaunay refinement. It is added to the active "
+                "analysis, if there is one"
+            ),
+        }
+
+    def IsActive(self):
+        return selected_part() is not None or selected_mesh() is not None
+
+    def Activated(self):
+        from . import start_mesh
+
+        mesh = selected_mesh()
+        if mesh is not None:
+            start_mesh.edit(mesh)
+        else:
+            start_mesh.create(selected_part())
+
+
+class RefineFaces:
+    """Make a FreeCAD mesh refinement on our mesh for the selected faces, edges or vertices."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("refine_faces"),
+            "MenuText": tr("Refine selected faces"),
+            "ToolTip": tr(
+                "Smaller elements at the selected faces, edges or vertices of a part that has a mesh object"
+            ),
+        }
+
+    def IsActive(self):
+        return any(selection.HasSubObjects for selection in FreeCADGui.Selection.getSelectionEx())
+
+    def Activated(self):
+        from . import refine_faces
+
+        refine_faces.refine(FreeCADGui.Selection.getSelectionEx())
+
+
+class ShowQuality:
+    """Open the quality panel of the selected mesh object."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("mesh_quality"),
+            "MenuText": tr("Mesh quality"),
+            "ToolTip": tr("Distribution of the dihedral angles and the worst elements of the selected mesh"),
+        }
+
+    def IsActive(self):
+        mesh = selected_fem_mesh()
+        return mesh is not None and mesh.FemMesh.VolumeCount > 0
+
+    def Activated(self):
+        from . import task_quality
+
+        task_quality.open_panel(selected_fem_mesh())
+
+
+COMMANDS = {
+    "DelaunayMesher_MeshSolid": MeshSolid(),
+    "DelaunayMesher_RefineFaces": RefineFaces(),
+    "DelaunayMesher_Quality": ShowQuality(),
+}
+NAMES = list(COMMANDS)
+IN_FEM = ["DelaunayMesher_MeshSolid", "DelaunayMesher_RefineFaces", "DelaunayMesher_Quality"]
+
+
+def register():
+    """Make the commands known to FreeCAD."""
+    for name, command in COMMANDS.items():
+        FreeCADGui.addCommand(name, command)
+
+
+def selected_objects():
+    """The selected objects of the active document."""
+    return FreeCADGui.Selection.getSelection() if FreeCAD.ActiveDocument else []
+
+
+def is_our_mesh(item):
+    """Whether a document object is a mesh object of this workbench."""
+    return getattr(getattr(item, "Proxy", None), "Type", "") == "Fem::FemMeshDelaunay"
+
+
+def selected_mesh():
+    """The only selected mesh object of ours, or None."""
+    meshes = [item for item in selected_objects() if is_our_mesh(item)]
+    return meshes[0] if len(meshes) == 1 else None
+
+
+def selected_fem_mesh():
+    """The only selected FEM mesh, whoever made it, or None."""
+    meshes = [item for item in selected_objects() if item.isDerivedFrom("Fem::FemMeshObject")]
+    return meshes[0] if len(meshes) == 1 else None
+
+
+def selected_part():
+    """The only selected object with a shape, or None.  Whether it can be meshed is found out later."""
+    items = selected_objects()
+    if len(items) != 1 or items[0].isDerivedFrom("Fem::FemMeshObject"):
+        return None
+    return items[0] if is_part(items[0]) else None
+
+
+def is_part(item):
+    """Whether an object has a shape of its own (a feature, a body, or a link to one)."""
+    if item.isDerivedFrom("Part::Feature"):
+        return True
+    linked = item.getLinkedObject(True) if hasattr(item, "getLinkedObject") else None
+    return linked is not None and linked != item and linked.isDerivedFrom("Part::Feature")

@@ -1,0 +1,88 @@
+"""One run of the mesher in a thread of its own.
+
+The document is read before (in the constructor) and written after (store()), both in the thread of the
+window; between, the thread touches copies only.  The core runs without Python's lock, so the window stays
+alive.  The panel asks for `stage`, `fraction` and `finished` now and then, so that no signal crosses threads.
+"""
+
+import threading
+import time
+import traceback
+
+import FreeCAD
+
+from ..document import mesh_object
+from ..document.femmesh import fem_mesh
+from ..errors import MeshCancelled, MeshError
+from ..progress import Progress
+
+
+class MeshJob:
+    """Prepared by the constructor (raises MeshError), then start(), and store() once `finished` and good."""
+
+    def __init__(self, target):
+        shape, self.options, self.keep, self.groups, self.warnings = mesh_object.collect(target)
+        self.shape = shape.copy()  # the document's own shape may be recomputed meanwhile
+        self.where = (target.Document.Name, target.Name)
+        self.stage, self.fraction = "plc", 0.0
+        self.mesh = self.filled = self.error = None
+        self.cancelled = False
+        self.progress = Progress()
+        self.begin = self.end = time.monotonic()
+        self.thread = threading.Thread(target=self.run, name="DelaunayMesher", daemon=True)
+
+    def start(self):
+        self.begin = time.monotonic()
+        self.thread.start()
+
+    def cancel(self):
+        """Ask the thread to stop; it does within some ten milliseconds of the core's work."""
+        self.cancelled = True
+
+    @property
+    def finished(self):
+        return not self.thread.is_alive()
+
+    @property
+    def seconds(self):
+        """Time since the start; of a finished run, its length."""
+        return (self.end if self.finished else time.monotonic()) - self.begin
+
+    def run(self):
+        """In the thread: shape -> mesh -> FemMesh that belongs to no document yet."""
+        try:
+            mesh = mesh_object.mesh_shape(self.shape, self.options, self.report, self.keep)
+            mesh.warnings[:0] = self.warnings
+            self.proceed("write", 0.0)
+            filled = fem_mesh(mesh, self.groups)
+            mesh.quality  # noqa: B018  computed here, not later in the thread of the window
+            self.proceed("write", 0.9)
+            self.mesh, self.filled = mesh, filled
+        except MeshError as error:
+            self.error = error
+        except Exception as error:
+            FreeCAD.Console.PrintLog(traceback.format_exc())
+            self.error = MeshError(self.stage, "internal", "%s: %s" % (type(error).__name__, error))
+        self.end = time.monotonic()
+
+    def report(self, stage, fraction):
+        """Called by the core now and then; False stops it."""
+        self.stage = stage
+        self.fraction = self.progress(stage, fraction)
+        return not self.cancelled
+
+    def proceed(self, stage, fraction):
+        """report() for this thread's own steps; raises MeshCancelled."""
+        if not self.report(stage, fraction):
+            raise MeshCancelled(stage)
+
+    def target(self):
+        """The mesh object, or None when it or its document has gone meanwhile."""
+        document = FreeCAD.listDocuments().get(self.where[0])
+        return document.getObject(self.where[1]) if document else None
+
+    def store(self, target):
+        """Put the finished mesh into the mesh object: one step that can be undone."""
+        target.Document.openTransaction("Delaunay mesh")
+        mesh_object.store(target, self.mesh, self.filled)
+        target.Document.commitTransaction()

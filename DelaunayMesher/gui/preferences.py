@@ -1,0 +1,76 @@
+"""What new meshes start with: the user's preferences, or the table's defaults."""
+
+import FreeCAD
+
+from ..options import OPTIONS
+
+PATH = "User parameter:BaseApp/Preferences/Mod/DelaunayMesher"
+STORED = tuple(option for option in OPTIONS if option.kind != "length")
+
+
+def group():
+    """The parameter group."""
+    return FreeCAD.ParamGet(PATH)
+
+
+def stored_value(option):
+    """The preference for an option, checked; the default when there is none or it makes no sense."""
+    from ..errors import InputError
+
+    text = group().GetString(option.property_name, "")
+    if not text:
+        return option.default
+    try:
+        if option.kind == "bool":
+            return text == "True"
+        return option.check(float(text))
+    except (InputError, ValueError):
+        return option.default
+
+
+def store_value(option, value):
+    """Keep a preference; the default is not written down."""
+    if value == option.default:
+        group().RemString(option.property_name)
+    else:
+        group().SetString(option.property_name, repr(value))
+
+
+def options_for(part):
+    """{name: value} that differs from the table's defaults, for a new mesh of `part`."""
+    from ..document import estimate
+
+    chosen = {option.name: stored_value(option) for option in STORED}
+    changed = {option.name: chosen[option.name] for option in STORED if chosen[option.name] != option.default}
+    size = estimate.suggested_size(part.Shape)
+    return {"max_size": size, **changed} if size else changed
+
+
+class PreferencesPage:
+    """The page in FreeCAD's preferences dialog; FreeCAD makes one when the dialog opens."""
+
+    def __init__(self, parent=None):
+        from PySide import QtGui
+
+        from .option_fields import make_field
+        from .texts import tr
+
+        self.form = QtGui.QWidget(parent)
+        self.form.setWindowTitle(tr("General"))
+        outer = QtGui.QVBoxLayout(self.form)
+        box = QtGui.QGroupBox(tr("Defaults of new meshes"))
+        grid = QtGui.QGridLayout(box)
+        self.fields = [make_field(option) for option in STORED]
+        for row, field in enumerate(self.fields):
+            field.add_to(grid, row)
+        grid.setColumnStretch(1, 1)
+        outer.addWidget(box)
+        outer.addStretch(1)
+
+    def loadSettings(self):
+        for field in self.fields:
+            field.set(stored_value(field.option))
+
+    def saveSettings(self):
+        for field in self.fields:
+            store_value(field.option, field.value())

@@ -1,0 +1,74 @@
+"""Creating a mesh object for a part, and opening the panel of one."""
+
+import FreeCAD
+import FreeCADGui
+
+from .texts import tr
+
+
+def create(part):
+    """New mesh object for `part` with the default options, undoable, in the active analysis; its panel opens.
+
+    The steps go through FreeCAD's Python console, so that macros can record them.
+    """
+    if not extension_is_there() or panel_is_open():
+        return
+    from ..errors import MeshError
+    from . import preferences
+
+    document = part.Document
+    document.openTransaction(tr("Delaunay mesh"))
+    try:
+        arguments = "".join(", %s=%r" % item for item in preferences.options_for(part).items())
+        FreeCADGui.addModule("DelaunayMesher.document")
+        FreeCADGui.doCommand(
+            "mesh = DelaunayMesher.document.add_mesh(FreeCAD.getDocument(%r).getObject(%r)%s)"
+            % (document.Name, part.Name, arguments)
+        )
+    except MeshError as error:
+        document.abortTransaction()
+        show_error(str(error))
+        return
+    document.commitTransaction()
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.doCommand("FreeCADGui.getDocument(mesh.Document.Name).setEdit(mesh.Name)")
+
+
+def edit(mesh):
+    """Open the panel of a mesh object, unless another panel is open.  Its analysis becomes the active one."""
+    if panel_is_open():
+        return
+    import FemGui
+
+    from ..document import mesh_object
+
+    analysis = mesh_object.analysis_of(mesh)
+    if analysis is not None and FemGui.getActiveAnalysis() != analysis:
+        FemGui.setActiveAnalysis(analysis)
+    FreeCADGui.getDocument(mesh.Document.Name).setEdit(mesh.Name)
+
+
+def panel_is_open():
+    """Whether another task panel is open; the user is told."""
+    if not FreeCADGui.Control.activeDialog():
+        return False
+    show_error(tr("Another task panel is open. Close it first."))
+    return True
+
+
+def extension_is_there():
+    """Whether the compiled part can be loaded; otherwise the user is told what to do."""
+    from . import installation
+
+    problem = installation.problem()
+    if problem:
+        show_error(problem)
+    return not problem
+
+
+def show_error(text):
+    """A message box, and the same in the report view."""
+    from PySide import QtGui
+
+    FreeCAD.Console.PrintError("Delaunay Mesher: %s\n" % text)
+    QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), tr("Delaunay Mesher"), text)
