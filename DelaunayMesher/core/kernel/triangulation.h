@@ -13,7 +13,7 @@
 // Corners are positively oriented (orient3d > 0); the ghost is always corner 3, and a ghost tetrahedron
 // (a, b, c, ghost) is in conflict with the points on the positive side of (a, b, c), i.e. outside the hull.
 // Cost: about 20 sphere tests and 27 new tetrahedra per point; memory: docs/kernel.md.
-// Limits: coordinates of magnitude 1e-50 .. 1e50 or 0; at most 5e8 tetrahedra (a Face is 32 bits).
+// Limits: coordinates of magnitude 1e-40 .. 1e50 or 0; at most 5e8 tetrahedra (a Face is 32 bits).
 // find_cavity is const but stamps: it may run in two threads at once only where no tetrahedron is seen by
 // both.
 #pragma once
