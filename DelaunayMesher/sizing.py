@@ -95,7 +95,7 @@ def sizes_by_name(sizes, plc):
 
 
 def _plural(kind, count):
-    word = {"Vertex": "vertices"}.get(kind, kind.lower() + "s", "unknown_name")
+    word = {"Vertex": "vertices"}.get(kind, kind.lower() + "s")
     return kind.lower() if count == 1 else word
 
 

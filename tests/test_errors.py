@@ -1,0 +1,49 @@
+import pickle
+import re
+from pathlib import Path
+
+from DelaunayMesher.errors import InputError, MeshCancelled, MeshError, entity_name
+
+ROOT = Path(__file__).parent.parent
+
+
+def test_names():
+    assert entity_name(2, 11) == "Face12"
+    assert entity_name(1, 0) == "Edge1"
+    assert entity_name(3, 2) == "Solid2"
+    assert entity_name(-1, -1) is None
+    assert entity_name(2, -1) is None
+
+
+def test_one_line_says_it_all():
+    error = MeshError("boundary", "self_intersection", "two faces cross", (10.2, 4, 0), "Face12", "Face40")
+    assert str(error) == "boundary: two faces cross [Face12, Face40] near (10.2, 4, 0) (self_intersection)"
+    assert str(MeshError("plc", "empty", "nothing")) == "plc: nothing (empty)"
+
+
+def test_statuses():
+    assert (MeshError.status, MeshError.exit_code) == ("failed", 1)
+    assert (InputError.status, InputError.exit_code) == ("failed", 2)
+    assert (MeshCancelled.status, MeshCancelled.exit_code) == ("cancelled", 130)
+    assert issubclass(MeshCancelled, MeshError)
+
+
+def test_errors_travel_between_processes():
+    error = pickle.loads(pickle.dumps(InputError("read", "bad_facet", "text", (1, 2, 3), "Face1")))
+    assert type(error) is InputError
+    assert error.as_dict()["place"] == (1.0, 2.0, 3.0)
+
+
+def test_every_reason_code_is_documented():
+    text = (ROOT / "docs" / "errors.md").read_text()
+    documented = set(re.findall(r"^\| `(\w+)`", text, re.MULTILINE))
+    used = set()
+    for path in [*ROOT.glob("DelaunayMesher/*.py"), *ROOT.glob("DelaunayMesher/document/*.py")]:
+        source = path.read_text()
+        used |= set(re.findall(r'(?:MeshError|InputError)\(\s*"\w+",\s*"(\w+)"', source))
+        used |= set(
+            re.findall(r'(?:refusal|unreadable|_unwritable)\([^()]*(?:\([^()]*\)[^()]*)*,\s*"(\w+)"', source)
+        )
+    for path in ROOT.glob("DelaunayMesher/core/**/*.cpp"):
+        used |= set(re.findall(r'Failure\(\s*(?:"\w+"|\w+),\s*"(\w+)"', path.read_text()))
+    assert used - documented == set()

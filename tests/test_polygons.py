@@ -1,0 +1,69 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from DelaunayMesher.errors import InputError
+from DelaunayMesher.polygons import triangulate_facet
+
+
+def area_vector(points, triangles):
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return np.cross(b - a, c - a).sum(axis=0) / 2
+
+
+def star(random, count):
+    """Corners of a star-shaped polygon round the origin."""
+    angle = 2 * np.pi * (np.arange(count) + random.uniform(0, 0.9, count)) / count
+    radius = random.uniform(0.3, 1, count)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(count)], axis=1)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 2**32 - 1), st.integers(4, 60))
+def test_star_with_a_hole_anywhere_in_space(seed, count):
+    random = np.random.default_rng(seed)
+    flat = star(random, count)
+    turned = np.concatenate([flat, 0.05 * flat]) @ np.linalg.qr(random.normal(size=(3, 3)))[0]
+    outer, inner = list(range(count)), list(range(count, 2 * count))
+    expected = np.cross(turned[:count], np.roll(turned[:count], -1, axis=0)).sum(axis=0) / 2
+    full = triangulate_facet(turned, [outer])
+    assert len(full) == count - 2
+    assert area_vector(turned, full) == pytest.approx(expected, abs=1e-12)
+    holed = triangulate_facet(turned, [outer, inner], [np.zeros(3)])
+    assert len(holed) == 2 * count
+    assert area_vector(turned, holed) == pytest.approx((1 - 0.05**2) * expected, abs=1e-12)
+
+
+def grid(count):
+    return np.array([[i, j, 0.0] for i in range(count) for j in range(count)])
+
+
+def test_points_on_the_sides_stay():
+    rim = [0, 1, 2, 3, 7, 11, 15, 14, 13, 12, 8, 4]
+    assert len(triangulate_facet(grid(4), [rim])) == 10
+    with_points = triangulate_facet(grid(4), [rim, [5], [6], [9], [10]])
+    assert len(with_points) == 18
+    with_segment = triangulate_facet(grid(4), [rim, [5, 10], [6], [9]])
+    edges = {frozenset(pair) for t in with_segment.tolist() for pair in zip(t, t[1:] + t[:1])}
+    assert frozenset((5, 10)) in edges
+
+
+def test_orientation_follows_the_polygon():
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    assert area_vector(square, triangulate_facet(square, [[0, 1, 2, 3]]))[2] == pytest.approx(1)
+    assert area_vector(square, triangulate_facet(square, [[3, 2, 1, 0]]))[2] == pytest.approx(-1)
+
+
+def test_crossing_polygons_are_refused():
+    points = np.array(
+        [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [2, 2, 0], [6, 2, 0], [6, 3, 0], [2, 3, 0.0]]
+    )
+    with pytest.raises(InputError) as caught:
+        triangulate_facet(points, [[0, 1, 2, 3], [4, 5, 6, 7]])
+    assert caught.value.code == "bad_facet"
+
+
+def test_facet_without_area_is_refused():
+    with pytest.raises(InputError):
+        triangulate_facet(np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0.0]]), [[0, 1, 2, 3]])
