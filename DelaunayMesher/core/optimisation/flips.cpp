@@ -3,7 +3,10 @@
 namespace dm {
 namespace {
 
-constexpr double kGain = 1e-3;  // of badness: less is not worth a change
+constexpr double kGain = 1e-3;  // of the worst badness: less is not worth a change
+constexpr int kShortRing = 5;
+constexpr double kMeanGain = 0.02;  // of the sum
+constexpr double kMeanBad = 0.29;   // badness of an average element of an optimised mesh
 
 // The corners c, d that make (a, b, c, d) positively oriented, for the edge (a, b) by local indices.
 constexpr int kEdgeRest[4][4][2] = {{{-1, -1}, {2, 3}, {3, 1}, {1, 2}},
@@ -34,8 +37,8 @@ bool Flipper::find_ring(Index start, int ia, int ib, int longest, Ring& ring) co
   }
 }
 
-// Best triangulation of the ring in the min-max sense; false when none is below `bound`.
-bool Flipper::triangulate(const Ring& ring, double bound, Plan& plan) {
+// Best triangulation of the ring: returns its worst badness, or its sum relative to the average element.
+double Flipper::triangulate(const Ring& ring) {
   const int n = ring.count;
   fan_.clear();
   for (int i = 0; i < n; ++i)
@@ -45,27 +48,27 @@ bool Flipper::triangulate(const Ring& ring, double bound, Plan& plan) {
   double upper[Fan::kCapacity], lower[Fan::kCapacity];
   fan_badness(fan_, mesh_.point(ring.b), 1, upper);
   fan_badness(fan_, mesh_.point(ring.a), -1, lower);
+  const bool worst = goal_ == FlipGoal::worst;
   double cost[kMaxRing][kMaxRing][kMaxRing];
   for (int i = 0, m = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
-      for (int k = j + 1; k < n; ++k, ++m) cost[i][j][k] = std::max(upper[m], lower[m]);
+      for (int k = j + 1; k < n; ++k, ++m)
+        cost[i][j][k] = worst ? std::max(upper[m], lower[m]) : upper[m] + lower[m] - 2 * kMeanBad;
   double best[kMaxRing][kMaxRing];
   for (int i = 0; i + 1 < n; ++i) best[i][i + 1] = 0;
   for (int length = 2; length < n; ++length)
     for (int i = 0; i + length < n; ++i) {
       const int k = i + length;
-      best[i][k] = kInverted;
-      middle_[i][k] = static_cast<std::int8_t>(i + 1);
+      best[i][k] = HUGE_VAL;
       for (int j = i + 1; j < k; ++j) {
-        const double c = std::max({cost[i][j][k], best[i][j], best[j][k]});
-        if (c < best[i][k]) {
-          best[i][k] = c;
-          middle_[i][k] = static_cast<std::int8_t>(j);
-        }
+        const double c = worst ? std::max({cost[i][j][k], best[i][j], best[j][k]})
+                               : cost[i][j][k] + best[i][j] + best[j][k];
+        if (c >= best[i][k]) continue;
+        best[i][k] = c;
+        middle_[i][k] = static_cast<std::int8_t>(j);
       }
     }
-  plan.worst = best[0][n - 1];
-  return plan.worst < bound;
+  return best[0][n - 1];
 }
 
 void Flipper::add_triangles(const Ring& ring, int i, int k, Plan& plan) const {
@@ -78,33 +81,44 @@ void Flipper::add_triangles(const Ring& ring, int i, int k, Plan& plan) const {
   add_triangles(ring, j, k, plan);
 }
 
+void Flipper::start(FlipGoal goal, Plan& plan) {
+  goal_ = goal;
+  plan.cost = goal == FlipGoal::worst ? kInverted : -kMeanGain;
+}
+
 void Flipper::plan_edge_removal(Index tet, int ia, int ib, int longest, Plan& best) {
   Ring ring;
   if (!find_ring(tet, ia, ib, longest, ring)) return;
-  double worst = 0;
-  for (int i = 0; i < ring.count; ++i) worst = std::max(worst, mesh_.bad(ring.tet[i]));
+  double worst = 0, sum = 0;
+  for (int i = 0; i < ring.count; ++i) {
+    worst = std::max(worst, mesh_.bad(ring.tet[i]));
+    sum += mesh_.bad(ring.tet[i]) - kMeanBad;
+  }
   Plan plan;
-  if (!triangulate(ring, std::min(best.worst, worst - kGain), plan)) return;
+  plan.cost = triangulate(ring);
+  if (goal_ == FlipGoal::mean) plan.cost -= sum;
+  if (plan.cost >= best.cost || (goal_ == FlipGoal::worst && plan.cost > worst - kGain)) return;
   add_triangles(ring, 0, ring.count - 1, plan);
   plan.before_count = ring.count;
   std::copy_n(ring.tet.begin(), ring.count, plan.before.begin());
   if (is_allowed(plan)) best = plan;
 }
 
+// For the worst element only.
 void Flipper::plan_face_removal(Index tet, int face, Plan& best) const {
   if (mesh_.marked(tet, face)) return;
   const Index n = mesh_.neighbour(tet, face);
   const Index a = mesh_.tet(tet)[face], b = mesh_.tet(n / 4)[n % 4];
-  const double bound = std::min(best.worst, std::max(mesh_.bad(tet), mesh_.bad(n / 4)) - kGain);
+  const double bound = std::min(best.cost, std::max(mesh_.bad(tet), mesh_.bad(n / 4)) - kGain);
   Plan plan;
-  plan.worst = 0;
-  for (int i = 0; i < 3 && plan.worst < bound; ++i) {
+  plan.cost = 0;
+  for (int i = 0; i < 3 && plan.cost < bound; ++i) {
     const Index p = mesh_.tet(tet)[EditMesh::kFace[face][i]],
                 q = mesh_.tet(tet)[EditMesh::kFace[face][(i + 1) % 3]];
     plan.after[plan.after_count++] = {p, q, b, a};
-    plan.worst = std::max(plan.worst, mesh_.compute_bad({p, q, b, a}));
+    plan.cost = std::max(plan.cost, mesh_.compute_bad({p, q, b, a}));
   }
-  if (plan.worst >= bound) return;
+  if (plan.cost >= bound) return;
   plan.before_count = 2;
   plan.before[0] = tet;
   plan.before[1] = n / 4;
@@ -133,21 +147,23 @@ bool Flipper::is_allowed(const Plan& plan) const {
   return true;
 }
 
-std::span<const Index> Flipper::apply(const Plan& plan) {
-  if (plan.worst >= kInverted) return {};
-  return mesh_.replace({plan.before.data(), static_cast<std::size_t>(plan.before_count)},
-                       {plan.after.data(), static_cast<std::size_t>(plan.after_count)});
+bool Flipper::apply(const Plan& plan) {
+  if (plan.before_count == 0) return false;
+  mesh_.replace({plan.before.data(), static_cast<std::size_t>(plan.before_count)},
+                {plan.after.data(), static_cast<std::size_t>(plan.after_count)});
+  return true;
 }
 
-std::span<const Index> Flipper::improve(Index tet) {
+bool Flipper::improve(Index tet) {
   Plan best;
+  start(FlipGoal::worst, best);
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j) plan_edge_removal(tet, i, j, kMaxRing, best);
   for (int i = 0; i < 4; ++i) plan_face_removal(tet, i, best);
   return apply(best);
 }
 
-std::span<const Index> Flipper::improve_blunt(Index tet) {
+bool Flipper::improve_blunt(Index tet, FlipGoal goal) {
   constexpr int kEdge[6][2] = {{2, 3}, {1, 3}, {1, 2},
                                {0, 3}, {0, 2}, {0, 1}};  // between the faces kFacePairs
   const Tet& c = mesh_.tet(tet);
@@ -164,7 +180,8 @@ std::span<const Index> Flipper::improve_blunt(Index tet) {
     }
   }
   Plan best;
-  for (const int k : {first, second}) plan_edge_removal(tet, kEdge[k][0], kEdge[k][1], 4, best);
+  start(goal, best);
+  for (const int k : {first, second}) plan_edge_removal(tet, kEdge[k][0], kEdge[k][1], kShortRing, best);
   return apply(best);
 }
 

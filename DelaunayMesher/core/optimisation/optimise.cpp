@@ -8,7 +8,8 @@ namespace dm {
 namespace {
 
 constexpr int kSweeps = 3;         // over all points
-constexpr double kSharpFlip = 35;  // degrees: elements below it are tried in the cheap flips
+constexpr double kSharpFlip = 35;  // degrees: elements below it are tried in the first round of cheap flips
+constexpr double kMeanFlip = 45;   // in the others
 constexpr int kWorstRounds = 8;    // over the elements below the target
 constexpr int kPollEvery = 128;
 
@@ -22,7 +23,7 @@ class Optimiser {
   OptimiseReport run() {
     AngleCosines before = extremes();
     for (int i = 0; i < kSweeps; ++i) {
-      flip_sharp();
+      i == 0 ? flip(kSharpFlip, FlipGoal::worst) : flip(kMeanFlip, FlipGoal::mean);
       sweep();
     }
     for (int round = 0; round < kWorstRounds; ++round)
@@ -49,12 +50,12 @@ class Optimiser {
     if (++polls_ % kPollEvery == 0) context_.poll((part + fraction) * 0.9 / (2 * kSweeps));
   }
 
-  void flip_sharp() {
-    const double bound = badness_at(kSharpFlip);
+  void flip(double below, FlipGoal goal) {
+    const double bound = badness_at(below);
     const int part = part_++;
     for (Index t = 0; t < mesh_.slot_count(); ++t) {
       if (mesh_.removed(t) || mesh_.bad(t) <= bound) continue;
-      report_.flipped += !flipper_.improve_blunt(t).empty();
+      report_.flipped += flipper_.improve_blunt(t, goal);
       poll(part, static_cast<double>(t) / mesh_.slot_count());
     }
   }
@@ -83,7 +84,7 @@ class Optimiser {
   bool cure(Index t, int round) {
     const auto pending = [&] { return !mesh_.removed(t) && mesh_.bad(t) > target_; };
     if (!pending()) return false;
-    if (!flipper_.improve(t).empty()) return ++report_.flipped, true;
+    if (flipper_.improve(t)) return ++report_.flipped, true;
     bool changed = false;
     const Tet corners = mesh_.tet(t);
     for (Index v : corners) {

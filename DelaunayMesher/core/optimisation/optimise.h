@@ -4,7 +4,7 @@
 // one smoothing step of every point raise the average angle, and only some per mille of the elements need the
 // full set of operations (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007).
 // Precondition: check_volume_mesh(mesh).  Postcondition: the same; the smallest angle is no smaller and the
-// largest no larger than before, unless within 34..130 degrees; every boundary point lies on its CAD element;
+// largest no larger than before, unless within 30..136 degrees; every boundary point lies on its CAD element;
 // no interior triangle has its corners on one CAD face that did not have them before.
 // Deterministic: one pass in index order.  Cost: 1 to 1.5 us per tetrahedron.
 // Limits: the boundary triangulation keeps its connectivity, so an element pinned between boundary triangles

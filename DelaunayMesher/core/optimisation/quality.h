@@ -31,9 +31,9 @@ inline double badness(const AngleCosines& c) {
 inline double badness_at(double degrees) { return std::cos(degrees * std::numbers::pi / 180) - 1.0 / 3; }
 
 // The guard of every operation: neither the smallest nor the largest angle of the tetrahedra it touches gets
-// worse, unless it stays inside a range that is good anyway (34 to 130 degrees).
+// worse, unless it stays inside a range that is good anyway (30 to 136 degrees).
 inline bool keeps_angles(const AngleCosines& before, const AngleCosines& after) {
-  constexpr double kSharpFree = 0.829, kBluntFree = -0.6428;  // cos 34, cos 130
+  constexpr double kSharpFree = 0.866, kBluntFree = -0.7193;  // cos 30, cos 136
   return after.sharp <= std::max(before.sharp, kSharpFree) &&
          after.blunt >= std::min(before.blunt, kBluntFree) && after.blunt > -1;
 }
