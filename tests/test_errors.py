@@ -46,4 +46,6 @@ def test_every_reason_code_is_documented():
         )
     for path in ROOT.glob("DelaunayMesher/core/**/*.cpp"):
         used |= set(re.findall(r'Failure\(\s*(?:"\w+"|\w+),\s*"(\w+)"', path.read_text()))
+        if path.parent.name in ("plc", "sizing"):  # where the user's input is checked
+            used |= set(re.findall(r'fail\(\s*"(\w+)"', path.read_text()))
     assert used - documented == set()
