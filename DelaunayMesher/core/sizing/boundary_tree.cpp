@@ -86,12 +86,12 @@ Index BoundaryTree::solid_at(const Vec3& p) const {
   return first == second ? first : solid_along(p, kDirections[2]);
 }
 
-BoundaryTree::Foot BoundaryTree::nearest(const Vec3& p) const {
+BoundaryTree::Foot BoundaryTree::nearest(const Vec3& p, double within) const {
   // Nearest to an edge or corner, several triangles tie: they must agree about the solid, or rays decide.
   constexpr double kTie = 1 + 1e-9;
   Foot best{p, -1};
   bool agree = true;
-  double best2 = HUGE_VAL;
+  double best2 = within * within * kTie;
   const auto ask = [&](Index index) {
     const Triangle& t = plc_.triangles[index];
     const Vec3 a = plc_.points[t[0]], b = plc_.points[t[1]], c = plc_.points[t[2]];

@@ -22,12 +22,13 @@ class BoundaryTree {
   // Solid (1-based) that p lies in, 0 = outside: by the side of the first triangle that rays from p hit, the
   // majority of three rays at most.  Not exact for points on the boundary.
   Index solid_at(const Vec3& p) const;
-  // Nearest place on the triangles and the solid that p lies in by their side.
+  // Nearest place on the triangles and the solid that p lies in by their side.  within: a distance that is
+  // known not to be exceeded; it saves time.
   struct Foot {
     Vec3 place;
     Index solid = 0;
   };
-  Foot nearest(const Vec3& p) const;
+  Foot nearest(const Vec3& p, double within = HUGE_VAL) const;
   // Conservative: true whenever a triangle touches the box.
   bool touches(const Box& box) const;
   const Box& box() const { return tree_.nodes()[0].box; }  // of the whole PLC

@@ -45,7 +45,7 @@ double ExactField::at(const Vec3& p, Index& hint) const {
 double ExactField::continued(const Vec3& p, Index& hint) const {
   const double h = at(p, hint);
   if (hint < 0 || !sources.source(hint).on_boundary) return h;
-  const BoundaryTree::Foot nearest = boundary->nearest(p);
+  const BoundaryTree::Foot nearest = boundary->nearest(p, distance(p, sources.source(hint).nearest(p)));
   if (nearest.solid > 0) return h;
   Index foot_hint = hint;
   const double foot = at(nearest.place, foot_hint);

@@ -1,7 +1,7 @@
 // The size field as its sources define it, without the octree:
 // h(x) = max(floor, min(max_size, min over sources of (size + slope * distance))).
 //
-// Exact (to the 1 % of SourceTree) and slow: microseconds.  The octree samples it.
+// Exact (to the 3 % of SourceTree) and slow: microseconds.  The octree samples it.
 #pragma once
 
 #include <vector>

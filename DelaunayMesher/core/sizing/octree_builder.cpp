@@ -86,10 +86,15 @@ float Octree::Builder::corner_value(std::uint32_t x, std::uint32_t y, std::uint3
   return value;
 }
 
-Octree::Place Octree::Builder::place(const Cell& cell, std::uint32_t size, Place parent) const {
+// Cells that the boundary does not touch lie on the same side of it as such a sibling across a common face.
+Octree::Place Octree::Builder::place(const Cell& cell, std::uint32_t size, Place parent, const Cell* siblings,
+                                     std::uint32_t number) const {
   if (parent != Place::mixed) return parent;
   const Box cube = box(cell, size);
   if (boundary_.touches(cube)) return Place::mixed;
+  for (const std::uint32_t axis : {1u, 2u, 4u})
+    if ((number & axis) != 0 && siblings[number ^ axis].place != Place::mixed)
+      return siblings[number ^ axis].place;
   return boundary_.solid_at(cube.centre()) > 0 ? Place::inside : Place::outside;
 }
 
@@ -104,10 +109,11 @@ bool Octree::Builder::must_split(Cell& cell, std::uint32_t size) {
   const double centre = corner_value(x + half, y + half, z + half, cell.place, cell.hint);
   double mean = 0;
   for (const float v : cell.values) mean += v / 8;
-  if (edge > kLargestCell * std::min(mean, centre)) return true;
+  // Outside corners hold less than any size wanted: the largest corner keeps them from deciding alone.
+  if (edge > kLargestCell * std::max(std::min(mean, centre), 0.7 * *high)) return true;
   if (std::abs(mean - centre) > kTolerance * centre) return true;
   const Box cube = box(cell, size);
-  return field_.differs(cube, *high, 2 * kTolerance, [&](const Vec3& q) {
+  return field_.differs(cube, *high, kTolerance, [&](const Vec3& q) {
     const Vec3 u = (1 / edge) * (q - cube.low);
     return interpolate(cell.values, u.x, u.y, u.z);
   });
@@ -134,7 +140,7 @@ void Octree::Builder::split(const Cell& cell, std::uint32_t size, std::vector<Ce
     Cell child{
         {x + i * half, y + j * half, z + k * half}, first + static_cast<Index>(c), hint, Place::mixed, {}};
     for (std::uint32_t v = 0; v < 8; ++v) child.values[v] = grid[k + (v >> 2)][j + (v >> 1 & 1)][i + (v & 1)];
-    child.place = place(child, half, cell.place);
+    child.place = place(child, half, cell.place, children.data() + children.size() - c, c);
     children.push_back(child);
   }
 }

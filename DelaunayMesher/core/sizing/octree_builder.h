@@ -25,7 +25,8 @@ class Octree::Builder {
   Box box(const Cell& cell, std::uint32_t size) const;
   float corner_value(std::uint32_t x, std::uint32_t y, std::uint32_t z, Place place, Index& hint);
   bool must_split(Cell& cell, std::uint32_t size);
-  Place place(const Cell& cell, std::uint32_t size, Place parent) const;
+  Place place(const Cell& cell, std::uint32_t size, Place parent, const Cell* siblings,
+              std::uint32_t number) const;
   void split(const Cell& cell, std::uint32_t size, std::vector<Cell>& children);
   void finish(const Cell& cell, std::uint32_t size);
   void make_table();

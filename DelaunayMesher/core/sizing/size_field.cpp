@@ -101,7 +101,7 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
   double inverse_volume = domain_volume(plc) / (options.max_size * options.max_size * options.max_size);
   if (!field.constant()) {
     impl_->octree = std::make_unique<Octree>(field, boundary, context);
-    impl_->smallest = std::min(impl_->octree->smallest(), smallest_source);
+    impl_->smallest = std::max(field.smallest(), std::min(impl_->octree->smallest(), smallest_source));
     impl_->largest = impl_->octree->largest();
     impl_->constant = false;
     inverse_volume = impl_->octree->inverse_volume();

@@ -66,8 +66,8 @@ SourceTree::SourceTree(std::vector<SizeSource> sources, double growth) : growth_
 double SourceTree::at(const Vec3& p, double bound, Index& hint) const {
   if (tree_.empty()) return bound;
   // Where many sources tie (the middle of a ball) an exact answer would have to visit them all: a node is
-  // left out unless it may be 2 % better, and a node this small is represented by one of its sources.
-  constexpr double kSlack = 0.02;
+  // left out unless it may be 3 % better, and a node this small is represented by one of its sources.
+  constexpr double kSlack = 0.03;
   double best = bound;
   Index winner = -1;
   const auto ask = [&](Index k) {

@@ -33,7 +33,7 @@ class SourceTree {
 
   const SizeSource& source(Index i) const { return sources_[i]; }
   double smallest() const { return smallest_; }
-  // The smaller of `bound` and the field at p (at most 2 % above it).  `hint` is a source likely to be the
+  // The smaller of `bound` and the field at p (at most 3 % above it).  `hint` is a source likely to be the
   // winner (-1: none) and becomes the winner's index, or -1 if no source is below the bound.
   double at(const Vec3& p, double bound, Index& hint) const;
 
