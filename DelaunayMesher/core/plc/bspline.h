@@ -67,7 +67,7 @@ class BSplineCurve {
  private:
   KnotVector knots_;
   Vec3 origin_;
-  double extent_;  // of the poles
+  double extent_;                             // of the poles
   std::vector<std::array<double, 4>> poles_;  // times weight, weight
 };
 
