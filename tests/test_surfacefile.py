@@ -104,7 +104,7 @@ def test_polygons(tmp_path):
 
 
 def test_poly_with_holes_in_facets_and_volume(tmp_path):
-    # A square tube: the end facets have a square hole; and a closed box inside marked as hollow in a second file.
+    # A square tube: the end facets have a square hole. Then a closed box inside, hollow in a second file.
     outer, inner = box(high=(3, 3, 1))[0], box((1, 1, 0), (2, 2, 1))[0]
     lines = ["16 3 0 0"] + ["%d %g %g %g" % (i, *p) for i, p in enumerate(np.concatenate([outer, inner]), 1)]
     lines.append("10 1")
