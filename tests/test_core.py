@@ -1,4 +1,4 @@
-"""The compiled core through the public API, on surfaces without CAD. These fail when the core is not built."""
+"""The compiled core through the public API, on surfaces without CAD. Fails when the core is not built."""
 
 import time
 
@@ -15,7 +15,7 @@ from DelaunayMesher.surfacefile import boundary_of_tets
 
 
 def check_mesh(mesh, solids=1):
-    """Every tetrahedron positive, boundary triangles exactly the faces with one owner or between two solids."""
+    """Every tetrahedron positive; boundary triangles are exactly the faces with one owner or two solids."""
     assert (quality.volumes(mesh.points, mesh.tets) > 0).all()
     assert set(np.unique(mesh.tet_solid)) == set(range(1, solids + 1))
     corners = np.sort(mesh.triangles[:, :3], axis=1)
