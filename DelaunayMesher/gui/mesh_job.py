@@ -54,7 +54,11 @@ class MeshJob:
             mesh = mesh_object.mesh_shape(self.shape, self.options, self.report, self.keep)
             mesh.warnings[:0] = self.warnings
             self.proceed("write", 0.0)
+            start = time.monotonic()
             filled = fem_mesh(mesh, self.groups)
+            taken = time.monotonic() - start
+            mesh.seconds = {**mesh.seconds, "write": taken}
+            mesh.total_seconds += taken
             mesh.quality  # noqa: B018  computed here, not later in the thread of the window
             self.proceed("write", 0.9)
             self.mesh, self.filled = mesh, filled
@@ -82,7 +86,10 @@ class MeshJob:
         return document.getObject(self.where[1]) if document else None
 
     def store(self, target):
-        """Put the finished mesh into the mesh object: one step that can be undone."""
-        target.Document.openTransaction("Delaunay mesh")
+        """Put the finished mesh into the mesh object.
+
+        No step to undo: FreeCAD's undo brings the old properties back, but never an old FEM mesh, and report
+        and mesh would no longer belong together.
+        """
         mesh_object.store(target, self.mesh, self.filled)
-        target.Document.commitTransaction()
+        target.recompute()

@@ -12,9 +12,10 @@ from .texts import tr
 
 UNITS = {"length": "mm", "angle": "deg"}
 LARGEST = 1e9
+NARROW = 70  # pixels that a field needs at least: FreeCAD's panels are narrow at first
 CHOICE_LABELS = {
-    ("order", 1): "First (4 nodes, straight)",
-    ("order", 2): "Second (10 nodes, curved)",
+    ("order", 1): "First (4 nodes)",
+    ("order", 2): "Second (10 nodes)",
 }
 
 
@@ -32,7 +33,8 @@ class Field:
         self.widget.setToolTip(tip)
         self.widget.setObjectName(option.property_name)
         if option.default is None:
-            self.automatic = QtGui.QCheckBox(tr("automatic"))
+            self.automatic = QtGui.QCheckBox(tr("auto"))
+            self.automatic.setToolTip(tr("Chosen from the size of the part"))
             self.automatic.setObjectName(option.property_name + "Automatic")
             self.automatic.toggled.connect(self.on_automatic)
 
@@ -87,6 +89,7 @@ class QuantityField(Field):
         widget.setProperty("unit", UNITS[self.option.kind])
         widget.setProperty("minimum", self.option.minimum or 0.0)
         widget.setProperty("maximum", self.option.maximum or LARGEST)
+        widget.setMinimumWidth(NARROW)
         QtCore.QObject.connect(widget, QtCore.SIGNAL("valueChanged(double)"), self.notify)
         return widget
 
@@ -106,6 +109,7 @@ class NumberField(Field):
 
     def make(self):
         widget = QtGui.QDoubleSpinBox()
+        widget.setMinimumWidth(NARROW)
         widget.setDecimals(2)
         widget.setRange(self.option.minimum + (0.01 if self.option.open_minimum else 0), self.option.maximum)
         widget.setSingleStep(0.05 if self.option.default < 1 else 1.0)
@@ -124,6 +128,7 @@ class WholeField(Field):
 
     def make(self):
         widget = QtGui.QSpinBox()
+        widget.setMinimumWidth(NARROW)
         widget.setRange(self.option.minimum, self.option.maximum)
         if self.option.name in ("threads", "max_elements"):
             widget.setSpecialValueText(tr("automatic"))
@@ -144,7 +149,7 @@ class CheckField(Field):
     """Yes or no."""
 
     def make(self):
-        widget = QtGui.QCheckBox(tr(sentence(self.option.help)))
+        widget = QtGui.QCheckBox()
         widget.toggled.connect(self.notify)
         return widget
 
@@ -160,6 +165,8 @@ class ChoiceField(Field):
 
     def make(self):
         widget = QtGui.QComboBox()
+        widget.setMinimumWidth(NARROW)
+        widget.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
         for choice, name in zip(self.option.choices, choice_names(self.option)):
             widget.addItem(tr(CHOICE_LABELS.get((self.option.name, choice), name)))
         widget.currentIndexChanged.connect(self.notify)

@@ -23,7 +23,8 @@ class DelaunayMesherWorkbench(FreeCADGui.Workbench):
 
     def fem_commands(self):
         """Commands of FreeCAD's FEM workbench that are there."""
-        import FemGui  # noqa: F401  registers them
+        import femcommands.commands  # noqa: F401  registers them
+        import FemGui  # noqa: F401
 
         wanted = ["FEM_Analysis", "FEM_MaterialSolid", "FEM_ConstraintFixed", "FEM_ConstraintForce"]
         known = FreeCADGui.listCommands()
