@@ -34,7 +34,11 @@ EditMesh::EditMesh(VolumeMesh& mesh) : mesh_(mesh) {
   build_point_faces();
   mark_boundary();
   bad_.resize(mesh.tets.size());
-  for (std::size_t t = 0; t < bad_.size(); ++t) bad_[t] = compute_bad(mesh.tets[t]);
+  for (std::size_t t = 0; t < bad_.size(); ++t) {
+    const AngleCosines c = cosines(mesh.tets[t]);
+    bad_[t] = badness(c);
+    first_extremes_.include(c);
+  }
   stamp_.assign(mesh.tets.size(), 0);
 }
 
@@ -87,7 +91,24 @@ void EditMesh::mark_boundary() {
         marks_[t] |= static_cast<std::uint8_t>(1 << i);
 }
 
+void EditMesh::list_stars() {
+  star_start_.assign(mesh_.points.size() + 1, 0);
+  for (const Tet& t : mesh_.tets)
+    if (t[0] != kRemoved)
+      for (Index v : t) ++star_start_[v + 1];
+  for (std::size_t v = 0; v < mesh_.points.size(); ++v) star_start_[v + 1] += star_start_[v];
+  star_tets_.resize(star_start_.back());
+  std::vector<Index> end(star_start_.begin(), star_start_.end() - 1);
+  for (Index t = 0; t < slot_count(); ++t)
+    if (!removed(t))
+      for (Index v : mesh_.tets[t]) star_tets_[end[v]++] = t;
+  stars_listed_ = true;
+}
+
 std::span<const Index> EditMesh::star(Index v) {
+  if (stars_listed_)
+    return {star_tets_.data() + star_start_[v],
+            static_cast<std::size_t>(star_start_[v + 1] - star_start_[v])};
   star_.clear();
   if (vertex_tet_[v] < 0) return {};
   ++stamp_value_;
@@ -148,6 +169,7 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
       if (n >= 0 && stamp_[n / 4] == stamp_value_) continue;
       open[count++] = {sorted(face_corners(mesh_.tets[t], i)), n, marked(t, i), true};
     }
+  stars_listed_ = false;
   const Index solid = mesh_.tet_solid[before[0]];
   for (Index t : before) {  // a point that gets no new tetrahedron below has left the mesh
     for (Index v : mesh_.tets[t])

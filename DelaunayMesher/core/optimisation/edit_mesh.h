@@ -49,6 +49,10 @@ class EditMesh {
 
   // The tetrahedra at v, in an order given by the data alone.  The span is valid until the next call.
   std::span<const Index> star(Index v);
+  // Lists all stars at once, which makes star() cheap until the next replace().
+  void list_stars();
+  // Extreme angles of the mesh as it was given.
+  const AngleCosines& first_extremes() const { return first_extremes_; }
   // CAD faces the boundary point v lies on, sorted; empty for interior points.
   std::span<const Index> faces_of(Index v) const {
     return {point_faces_.data() + face_start_[v],
@@ -74,7 +78,10 @@ class EditMesh {
   std::vector<double> bad_;
   std::vector<std::uint8_t> marks_;
   std::vector<Index> vertex_tet_, face_start_, point_faces_, free_, stamp_, star_, created_;
+  std::vector<Index> star_start_, star_tets_;
+  bool stars_listed_ = false;
   Index stamp_value_ = 0;
+  AngleCosines first_extremes_;
 };
 
 }  // namespace dm

@@ -21,14 +21,13 @@ class Optimiser {
   }
 
   OptimiseReport run() {
-    AngleCosines before = extremes();
     for (int i = 0; i < kSweeps; ++i) {
       i == 0 ? flip(kSharpFlip, FlipGoal::worst) : flip(kMeanFlip, FlipGoal::mean);
       sweep();
     }
     for (int round = 0; round < kWorstRounds; ++round)
       if (!cure_worst(round)) break;
-    set_range(before, report_.min_before, report_.max_before);
+    set_range(mesh_.first_extremes(), report_.min_before, report_.max_before);
     set_range(extremes(), report_.min_after, report_.max_after);
     mesh_.finish();
     return report_;
@@ -60,6 +59,7 @@ class Optimiser {
     }
   }
   void sweep() {
+    mesh_.list_stars();
     const int part = part_++;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       report_.smoothed += smoother_.smooth_soft(v, 1);
