@@ -49,7 +49,7 @@ void Triangulation::check_tetrahedron(Index t) const {
 }
 
 void Triangulation::check_vertices() const {
-  if (vertex_tet_.size() != points_.size() + 1) broken("vertex", "the list of vertices has a wrong length");
+  if (vertex_tet_.size() != points_.size()) broken("vertex", "the list of vertices has a wrong length");
   for (Index v = 0; v < vertex_count(); ++v) {
     const Index t = vertex_tet(v);
     if (t < 0) continue;

@@ -42,18 +42,26 @@ constexpr std::array<Step, 24 * 8> make_steps() {
 }
 constexpr std::array<Step, 24 * 8> kSteps = make_steps();
 
-// Codes within the bounding cube of these points.
-void set_codes(std::span<const Vec3> points, std::span<Keyed> keyed) {
-  Vec3 low = points[keyed[0].point], high = low;
-  for (const Keyed& k : keyed) {
-    const Vec3& p = points[k.point];
+struct Cube {
+  Vec3 low;
+  double side = 0;
+};
+// Of count > 0 points, the k-th of them at(k).
+template <class At>
+Cube bounding_cube(std::size_t count, const At& at) {
+  Vec3 low = at(0), high = low;
+  for (std::size_t k = 1; k < count; ++k) {
+    const Vec3& p = at(k);
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  const double scale = side > 1e-280 ? (1 << kBits) * (1 - 0x1.0p-40) / side : 0;
+  return {low, std::max({high.x - low.x, high.y - low.y, high.z - low.z})};
+}
+
+void set_codes(std::span<const Vec3> points, std::span<Keyed> keyed, const Cube& cube) {
+  const double scale = cube.side > 1e-280 ? (1 << kBits) * (1 - 0x1.0p-40) / cube.side : 0;
   for (Keyed& k : keyed) {
-    const Vec3 q = scale * (points[k.point] - low);
+    const Vec3 q = scale * (points[k.point] - cube.low);
     k.code = hilbert_code(static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y),
                           static_cast<std::uint32_t>(q.z));
   }
@@ -79,14 +87,19 @@ void sort_by_code(std::span<Keyed> keyed, std::vector<Keyed>& scratch) {
   }
 }
 
-void sort_along_curve(std::span<const Vec3> points, std::span<Keyed> keyed, std::vector<Keyed>& scratch) {
-  if (keyed.size() < 2) return;
-  set_codes(points, keyed);
+void sort_along_curve(std::span<const Vec3> points, std::span<Keyed> keyed, const Cube& cube,
+                      std::vector<Keyed>& scratch) {
+  set_codes(points, keyed, cube);
   sort_by_code(keyed, scratch);
-  if (keyed.front().code == keyed.back().code) return;
   for (std::size_t i = 0, j; i < keyed.size(); i = j) {  // tight clusters: again at their own scale
-    for (j = i + 1; j < keyed.size() && keyed[j].code == keyed[i].code;) ++j;
-    if (j - i > kSmallGroup) sort_along_curve(points, keyed.subspan(i, j - i), scratch);
+    const std::uint32_t code = keyed[i].code;
+    for (j = i + 1; j < keyed.size() && keyed[j].code == code;) ++j;
+    if (j - i <= kSmallGroup) continue;
+    const auto group = keyed.subspan(i, j - i);
+    const Cube own =
+        bounding_cube(group.size(), [&](std::size_t k) -> const Vec3& { return points[group[k].point]; });
+    if (own.side > 0 && own.side < cube.side) sort_along_curve(points, group, own, scratch);
+    for (Keyed& k : group) k.code = code;
   }
 }
 
@@ -118,15 +131,18 @@ InsertionOrder insertion_order(std::span<const Vec3> points) {
     round[r].push_back({0, i});
   }
   InsertionOrder result;
+  result.rounds.push_back(0);
+  if (n == 0) return result;
   result.order.reserve(n);
+  result.codes.reserve(n);
   std::vector<Keyed> scratch;
+  const Cube cube = bounding_cube(points.size(), [&](std::size_t k) -> const Vec3& { return points[k]; });
   for (auto& points_of_round : round) {
+    sort_along_curve(points, points_of_round, cube, scratch);
+    for (const Keyed& k : points_of_round) result.order.push_back(k.point), result.codes.push_back(k.code);
     result.rounds.push_back(static_cast<Index>(result.order.size()));
-    sort_along_curve(points, points_of_round, scratch);
-    for (const Keyed& k : points_of_round) result.order.push_back(k.point);
     points_of_round = {};
   }
-  result.rounds.push_back(n);
   return result;
 }
 

@@ -15,8 +15,9 @@
 namespace dm {
 
 struct InsertionOrder {
-  std::vector<Index> order;   // point numbers
-  std::vector<Index> rounds;  // round r is order[rounds[r]] .. order[rounds[r + 1] - 1]
+  std::vector<Index> order;          // point numbers
+  std::vector<std::uint32_t> codes;  // codes[k]: position of order[k] on the curve; ascending within a round
+  std::vector<Index> rounds;         // round r is order[rounds[r]] .. order[rounds[r + 1] - 1]
 };
 
 InsertionOrder insertion_order(std::span<const Vec3> points);

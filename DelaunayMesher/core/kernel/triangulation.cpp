@@ -72,15 +72,17 @@ bool Triangulation::conflict(Index tet, const Vec3& p, Index number) const {
 
 bool Triangulation::in_conflict(Index tet, const Vec3& p) const { return conflict(tet, p, vertex_count()); }
 
-Index Triangulation::locate(const Vec3& p, Index hint) const { return walk(p, hint); }
+Index Triangulation::locate(const Vec3& p, Index hint) const { return walk(p, hint, Everywhere{}); }
 
 // Visibility walk: it cannot cycle in a Delaunay triangulation, for every step lowers the power of p.  It may
 // stop at the first tetrahedron in conflict; one that contains p and has it for no corner is, so it ends.
-Index Triangulation::walk(const Vec3& p, Index hint) const {
+template <class Region>
+Index Triangulation::walk(const Vec3& p, Index hint, const Region& region) const {
   Index tet = is_ghost(hint) ? neighbours_[hint][3] >> 2 : hint;
   int entered = -1;
   while (!is_ghost(tet)) {
     const Tet& c = corners_[tet];
+    if (!region(c)) return kLeft;
     const std::array<const Vec3*, 4> corner = {&points_[c[0]], &points_[c[1]], &points_[c[2]],
                                                &points_[c[3]]};
     const filter::Seen seen = filter::see(*corner[0], *corner[1], *corner[2], *corner[3], p);
@@ -108,7 +110,7 @@ Index Triangulation::walk(const Vec3& p, Index hint) const {
     tet = face >> 2;
     entered = face & 3;
   }
-  return tet;
+  return region(corners_[tet]) ? tet : kLeft;
 }
 
 Face Triangulation::find_cavity(const Vec3& p, Index start, bool stop_at_marks, Cavity& cavity) const {
@@ -116,15 +118,16 @@ Face Triangulation::find_cavity(const Vec3& p, Index start, bool stop_at_marks, 
   cavity.border.clear();
   cavity.outside.clear();
   if (!in_conflict(start, p)) return -1;
-  return stop_at_marks ? search<true>(p, vertex_count(), start, cavity)
-                       : search<false>(p, vertex_count(), start, cavity);
+  return stop_at_marks ? search<true>(p, vertex_count(), start, cavity, Everywhere{})
+                       : search<false>(p, vertex_count(), start, cavity, Everywhere{});
 }
 
 // Breadth-first search over the tetrahedra in conflict, a level at a time: gather the neighbours not seen
 // yet, test them all, append those in conflict.  No step branches on the outcome of a test, which nothing can
 // predict, and the tests of a level overlap.
-template <bool kStopAtMarks>
-Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cavity) const {
+template <bool kStopAtMarks, class Region>
+Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cavity,
+                           const Region& region) const {
   std::uint8_t* flags = flags_.data();
   cavity.tets.resize(std::max<std::size_t>(cavity.tets.capacity(), 64));
   cavity.seen.resize(std::max<std::size_t>(cavity.seen.capacity(), 128));
@@ -132,7 +135,7 @@ Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cav
   flags[start] |= kInside | kSeen;
   std::size_t inside = 1, seen = 1;
   Face stopped = -1;
-  for (std::size_t level = 0; level < inside && stopped < 0;) {
+  for (std::size_t level = 0; level < inside && stopped == -1;) {
     const std::size_t level_end = inside, first = seen;
     const std::size_t most = seen + 4 * (level_end - level) + 4;
     if (cavity.seen.size() < most) cavity.seen.resize(2 * most);
@@ -147,10 +150,13 @@ Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cav
     if (cavity.tets.size() < inside + seen - first) cavity.tets.resize(2 * (inside + seen));
     inside = test(p, number, cavity, first, seen, inside);
     if (kStopAtMarks) stopped = marked_inside({cavity.tets.data() + level, level_end - level});
+    for (std::size_t k = level_end; k < inside; ++k)
+      if (!region(corners_[cavity.tets[k]])) stopped = kLeft;
+    if (stopped == kLeft) break;
     level = level_end;
   }
   cavity.tets.resize(inside);
-  if (stopped < 0) collect_border(cavity);
+  if (stopped == -1) collect_border(cavity);
   for (std::size_t k = 0; k < seen; ++k) flags[cavity.seen[k]] &= kMarks;
   return stopped;
 }
@@ -205,7 +211,10 @@ void Triangulation::collect_border(Cavity& cavity) const {
   cavity.outside.resize(n);
 }
 
-template Face Triangulation::search<false>(const Vec3&, Index, Index, Cavity&) const;
+template Face Triangulation::search<false>(const Vec3&, Index, Index, Cavity&, const Everywhere&) const;
+template Face Triangulation::search<false>(const Vec3&, Index, Index, Cavity&, const Part&) const;
+template Index Triangulation::walk(const Vec3&, Index, const Everywhere&) const;
+template Index Triangulation::walk(const Vec3&, Index, const Part&) const;
 
 void Triangulation::reserve_slots(std::size_t wanted) {
   if (!slots_.enough(wanted))
@@ -243,7 +252,7 @@ void Triangulation::fill(Index vertex, Cavity& cavity, Slots& slots) {
     link(cavity);
   else
     link_many(cavity);
-  vertex_tet_[vertex + 1] = cavity.created[0];
+  vertex_tet_[vertex] = cavity.created[0];
 }
 
 // Reads what stands behind the border faces, before the slots are filled again, and numbers the corners of
@@ -251,7 +260,7 @@ void Triangulation::fill(Index vertex, Cavity& cavity, Slots& slots) {
 int Triangulation::collect(Index vertex, Cavity& cavity) {
   const std::size_t count = cavity.border.size();
   cavity.made.resize(count);
-  Index* vertex_tet = vertex_tet_.data() + 1;
+  Index* vertex_tet = vertex_tet_.data();
   Index next = 1;  // 0 is the ghost's
   const auto local = [&](Index v) {
     if (v < 0) [[unlikely]]
@@ -333,7 +342,7 @@ inline std::array<Face, 4>& Triangulation::place(const Cavity& cavity, std::size
   neighbours_[tet][apex] = outside;
   neighbours_[outside >> 2][outside & 3] = 4 * tet + apex;
   for (int j = 0; j < 4; ++j)
-    if (j != apex && m.corners[j] != ghost) vertex_tet_[m.corners[j] + 1] = tet;
+    if (j != apex && m.corners[j] != ghost) vertex_tet_[m.corners[j]] = tet;
   return neighbours_[tet];
 }
 

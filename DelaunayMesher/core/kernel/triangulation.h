@@ -26,6 +26,7 @@
 
 #include "base/vec3.h"
 #include "kernel/array.h"
+#include "kernel/part.h"
 #include "kernel/sphere_tests.h"
 
 namespace dm {
@@ -93,7 +94,7 @@ class Triangulation {
   // Face of the neighbour that touches face i of tet; the neighbour itself is that / 4.
   Face neighbour(Index tet, int i) const { return neighbours_[tet][i]; }
   // Some tetrahedron (perhaps a ghost) at the vertex.
-  Index vertex_tet(Index vertex) const { return vertex_tet_[vertex + 1]; }
+  Index vertex_tet(Index vertex) const { return vertex_tet_[vertex]; }
 
   // Memory held by all arrays.
   std::size_t bytes() const;
@@ -125,7 +126,9 @@ class Triangulation {
 
  private:
   friend class TriangulationBuilder;
+  friend class PartInsertion;
   static constexpr Index free_slot = -2;
+  static constexpr Index kLeft = -2;  // walk, search: a tetrahedron outside the region was met
   // flags_: bits 0-3 the marks, bits 4 and 5 the stamps of find_cavity, which leaves none behind.
   static constexpr std::uint8_t kMarks = 15, kInside = 16, kSeen = 32;
   static constexpr int kLocalCorners = 64;  // corners of a cavity that link() can number in its table
@@ -135,9 +138,12 @@ class Triangulation {
   bool finite_conflict(const Tet& tet, const Vec3& p, Index number) const;
   bool close_conflict(const Tet& tet, const Vec3& p, Index number) const;
   bool tie_conflict(const Tet& tet, const Vec3& p, Index number) const;
-  Index walk(const Vec3& p, Index hint) const;
-  template <bool kStopAtMarks>
-  Face search(const Vec3& p, Index number, Index start, Cavity& cavity) const;
+  template <class Region>
+  Index walk(const Vec3& p, Index hint, const Region& region) const;
+  template <bool kStopAtMarks, class Region>
+  Face search(const Vec3& p, Index number, Index start, Cavity& cavity, const Region& region) const;
+  void move_slot(Index from, Index to);
+  void compact();
   std::size_t test(const Vec3& p, Index number, Cavity& cavity, std::size_t first, std::size_t end,
                    std::size_t inside) const;
   Face marked_inside(std::span<const Index> tets) const;
@@ -160,7 +166,7 @@ class Triangulation {
   Array<std::array<Face, 4>> neighbours_;
   Array<std::uint16_t> tags_;
   mutable Array<std::uint8_t> flags_;
-  std::vector<Index> vertex_tet_;  // entry 0 is the ghost's
+  std::vector<Index> vertex_tet_;
   Slots slots_;
   SphereTests sphere_tests_ = sphere_tests();
   std::vector<Index> numbers_;  // while building: the caller's number of a vertex; afterwards empty
