@@ -129,7 +129,7 @@ bool BoundaryTree::touches(const Box& query) const {
   Index stack[128], top = 0;
   stack[top++] = 0;
   const Vec3 centre = query.centre();
-  const double radius2 = 0.25 * norm2(query.extent());
+  const Vec3 half = 0.5 * query.extent();
   while (top > 0) {
     const BoxTree::Node& node = tree_.nodes()[stack[--top]];
     if (!node.box.overlaps(query)) continue;
@@ -144,7 +144,10 @@ bool BoundaryTree::touches(const Box& query) const {
       for (const Index v : t) box.add(plc_.points[v]);
       if (!box.overlaps(query)) continue;
       const Vec3 near = nearest_on_triangle(centre, plc_.points[t[0]], plc_.points[t[1]], plc_.points[t[2]]);
-      if (norm2(near - centre) <= radius2) return true;
+      // The plane through the nearest place, square to the way there, has the triangle on its far side; the
+      // box is clear if it lies on the near side.
+      const Vec3 d = near - centre;
+      if (norm2(d) <= half.x * std::abs(d.x) + half.y * std::abs(d.y) + half.z * std::abs(d.z)) return true;
     }
   }
   return false;

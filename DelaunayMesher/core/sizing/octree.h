@@ -6,9 +6,9 @@
 // centre deviates, or a source dips below the interpolant.  In a linear field large cells suffice.
 // Precondition: the exact field is Lipschitz with its growth rate.  Postcondition (checked by tests): within
 // about 5 % of the exact field in the domain (13 % at worst, beside edge and vertex sources).  The jump
-// between neighbouring leaves is of the same order as that error. Cost: about 0.1 leaf (32 bytes) per
-// tetrahedron asked for; lookup 10 to 90 ns. Limit: kMaxLeaves leaves; beyond it the finest leaves hold their
-// smallest value all over.
+// between neighbouring leaves is of the same order as that error.
+// Cost: about 0.1 leaf (32 bytes) per tetrahedron asked for; lookup 10 to 90 ns.
+// Limit: kMaxLeaves leaves; beyond it the finest leaves hold their smallest value all over.
 #pragma once
 
 #include <vector>
