@@ -8,7 +8,8 @@ namespace dm {
 namespace {
 
 constexpr double kAligned = 0.5;
-constexpr double kWorstShape = 1e-3;  // of a triangle that a collapse may leave (flips improve it afterwards)
+constexpr double kSlack = 0.1;        // of alignment, where the triangles are poorly aligned already
+constexpr double kWorstShape = 1e-4;  // of a triangle that a collapse may leave (flips improve it afterwards)
 constexpr double kLongest = 1.45;     // edge made by a collapse, over the wanted length
 
 // 1 for the equilateral triangle, 0 for a degenerate one.
@@ -20,18 +21,22 @@ double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 }  // namespace
 
 // Smallest shape of the triangles that collapsing `gone` along e leaves; negative when one of them turns away
-// from the surface (unless it did so before), is degenerate, or has an edge longer than max_ratio.
+// from the surface (more than some did before), is degenerate, or has an edge longer than max_ratio.
 double PatchRemesher::collapse_quality(Index e, Index gone, double max_ratio) const {
   const Index keep = patch_.origin(e) == gone ? patch_.target(e) : patch_.origin(e);
+  double least = kAligned;  // what new triangles must reach: no worse than what is there
+  patch_.for_each_corner(gone, [&](Index c) {
+    const double now = alignment(gone, patch_.vertex[FacePatch::next(c)], patch_.vertex[FacePatch::prev(c)]);
+    least = std::min(least, now);
+  });
+  if (least < kAligned) least = std::max(least - kSlack, least > 0 ? 0.05 : -0.9);
   double worst = 1;
   patch_.for_each_corner(gone, [&](Index c) {
     if (worst < 0) return;
     const Index x = patch_.vertex[FacePatch::next(c)], y = patch_.vertex[FacePatch::prev(c)];
     if (x == keep || y == keep) return;
-    const double after = alignment(keep, x, y);
     const double q = shape(points()[keep], points()[x], points()[y]);
-    const bool poor = after < kAligned || q < kWorstShape;
-    if (poor && (after <= alignment(gone, x, y) + 0.01 || after <= 0)) worst = -1;
+    if (q < kWorstShape || alignment(keep, x, y) < least) worst = -1;
     if (edge_ratio(keep, x) > max_ratio || edge_ratio(keep, y) > max_ratio) worst = -1;
     if (worst >= 0) worst = std::min(worst, q);
   });

@@ -126,8 +126,8 @@ bool PatchRemesher::insert_near_centre(Index t) {
   if (!may_insert(s, p, length_at_p, circle.radius)) return false;
 
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
-  set_vertex(x, p);
   const Index corners[3] = {patch_.vertex[3 * s], patch_.vertex[3 * s + 1], patch_.vertex[3 * s + 2]};
+  set_vertex(x, p, patch_.normals[corners[0]] + patch_.normals[corners[1]] + patch_.normals[corners[2]]);
   Index on_edge = -1;
   double lowest = kOnEdge;
   bool aligned = true;
@@ -185,7 +185,7 @@ bool PatchRemesher::split_at_middle(Index e) {
   if (!(distance(p, middle) < 0.5 * distance(points()[a], points()[b]))) return false;
   const double before = std::min(alignment(a, b, c), alignment(b, a, d));
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
-  set_vertex(x, p);
+  set_vertex(x, p, patch_.normals[a] + patch_.normals[b]);
   const double after =
       std::min({alignment(a, x, c), alignment(x, b, c), alignment(b, x, d), alignment(x, a, d)});
   if (after < std::min(0.3, before)) {

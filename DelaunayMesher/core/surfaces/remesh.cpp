@@ -35,7 +35,7 @@ class SurfaceMesher {
         break;
       }
       curve_options.keep.resize(plc_.points.size(), 0);
-      for (Index p : left) curve_options.keep[p] = 1;
+      keep_points(left, attempt > 1, curve_options.keep);
     }
     separate_faces();
     return assemble();
@@ -50,6 +50,17 @@ class SurfaceMesher {
     throw Failure("surfaces", "boundary_curve",
                   "the boundary of a face could not be given the wanted size; try a smaller size there",
                   plc_.points[point], {2, face});
+  }
+
+  // Marks the points, or all points of their CAD edges, as staying.
+  void keep_points(const std::vector<Index>& left, bool whole_edges, std::vector<char>& keep) const {
+    for (Index p : left) keep[p] = 1;
+    if (!whole_edges) return;
+    std::vector<char> edges(plc_.edge_count, 0);
+    for (std::size_t s = 0; s < plc_.segments.size(); ++s)
+      if (keep[plc_.segments[s][0]] || keep[plc_.segments[s][1]]) edges[plc_.segment_edge[s]] = 1;
+    for (std::size_t s = 0; s < plc_.segments.size(); ++s)
+      if (edges[plc_.segment_edge[s]]) keep[plc_.segments[s][0]] = keep[plc_.segments[s][1]] = 1;
   }
 
   Index face_count() const { return static_cast<Index>(plc_.face_solids.size()); }

@@ -64,8 +64,10 @@ class PatchRemesher {
   const std::vector<Vec3>& points() const { return patch_.points; }
 
   void start_vertices();
-  void drop_doubtful_normals();
-  void set_vertex(Index v, const Vec3& p);
+  void settle_normals();
+  // Puts v at p.  The normal's sign follows `hint` (near-degenerate surfaces have two sheets at hardly any
+  // distance); a zero hint leaves it to the geometry.
+  void set_vertex(Index v, const Vec3& p, const Vec3& hint);
 
   bool violates_delaunay(Index e) const;
   bool can_flip(Index e) const;

@@ -66,7 +66,7 @@ void PatchRemesher::smooth(int sweeps) {
       if (patch_.kinds[v] != VertexKind::interior || patch_.corner_of(v) < 0) continue;
       const Vec3 p = geometry_.project_to_face(face_, smoothed_position(v));
       if (!(distance(p, points()[v]) < 2 * patch_.lengths[v])) continue;
-      if (star_stays(v, p)) set_vertex(v, p);
+      if (star_stays(v, p)) set_vertex(v, p, patch_.normals[v]);
     }
     make_delaunay();
   }
@@ -83,7 +83,7 @@ void PatchRemesher::jitter() {
       Random random(seed_, 0x6a697474, face_, v, attempt);
       const Vec3 p = geometry_.project_to_face(face_, points()[v] + amplitude * random.in_ball());
       if (star_angle(v, p) > std::max(before, kGoodCosine) || !star_stays(v, p)) continue;
-      set_vertex(v, p);
+      set_vertex(v, p, patch_.normals[v]);
       break;
     }
   }
