@@ -3,6 +3,7 @@
 #include "optimisation/collapse.h"
 #include "optimisation/flips.h"
 #include "optimisation/smoothing.h"
+#include "optimisation/spatial_order.h"
 
 namespace dm {
 namespace {
@@ -110,6 +111,7 @@ class Optimiser {
 OptimiseReport optimise(VolumeMesh& mesh, const Geometry& geometry, const SizeField&,
                         const OptimiseOptions& options, Context& context) {
   context.begin("optimisation");
+  sort_in_space(mesh);
   return Optimiser(mesh, geometry, options, context).run();
 }
 

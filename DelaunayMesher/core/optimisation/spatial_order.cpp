@@ -1,0 +1,82 @@
+#include "optimisation/spatial_order.h"
+
+#include <algorithm>
+
+namespace dm {
+namespace {
+
+constexpr int kBits = 10;  // per coordinate
+
+// 0b11 -> 0b1001: two empty bits after each bit.
+std::uint64_t spread(std::uint64_t x) {
+  std::uint64_t y = 0;
+  for (int b = 0; b < kBits; ++b) y |= (x >> b & 1) << (3 * b);
+  return y;
+}
+
+// New number of each point.
+std::vector<Index> point_places(const std::vector<Vec3>& points) {
+  Vec3 low = points[0], high = low;
+  for (const Vec3& p : points)
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const double scale = extent > 0 ? ((1 << kBits) - 1) / extent : 0;
+  std::vector<std::uint64_t> keys(points.size());  // place on the curve, then the old number
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const Vec3 q = scale * (points[v] - low);
+    const auto cell = [](double x) { return spread(static_cast<std::uint64_t>(x)); };
+    keys[v] = (cell(q.x) | cell(q.y) << 1 | cell(q.z) << 2) << 32 | v;
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Index> place(points.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) place[keys[k] & 0xffffffff] = static_cast<Index>(k);
+  return place;
+}
+
+// New number of each tetrahedron: counting sort by smallest point.
+std::vector<Index> tet_places(const std::vector<Tet>& tets, std::size_t point_count) {
+  std::vector<Index> next(point_count + 1, 0);
+  const auto smallest = [](const Tet& t) { return *std::min_element(t.begin(), t.end()); };
+  for (const Tet& t : tets) ++next[smallest(t) + 1];
+  for (std::size_t v = 0; v < point_count; ++v) next[v + 1] += next[v];
+  std::vector<Index> place(tets.size());
+  for (std::size_t t = 0; t < tets.size(); ++t) place[t] = next[smallest(tets[t])]++;
+  return place;
+}
+
+template <class T>
+void permute(std::vector<T>& items, const std::vector<Index>& place) {
+  std::vector<T> sorted(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) sorted[place[i]] = items[i];
+  items.swap(sorted);
+}
+
+template <class Item>
+void rename(std::vector<Item>& items, const std::vector<Index>& place) {
+  for (Item& item : items)
+    for (Index& v : item) v = place[v];
+}
+
+}  // namespace
+
+void sort_in_space(VolumeMesh& mesh) {
+  if (mesh.points.empty()) return;
+  const std::vector<Index> point_place = point_places(mesh.points);
+  permute(mesh.points, point_place);
+  permute(mesh.point_entity, point_place);
+  rename(mesh.tets, point_place);
+  rename(mesh.triangles, point_place);
+  rename(mesh.segments, point_place);
+  const std::vector<Index> tet_place = tet_places(mesh.tets, mesh.points.size());
+  for (auto& across : mesh.neighbours)
+    for (Index& n : across)
+      if (n >= 0) n = 4 * tet_place[n / 4] + n % 4;
+  permute(mesh.tets, tet_place);
+  permute(mesh.neighbours, tet_place);
+  permute(mesh.tet_solid, tet_place);
+}
+
+}  // namespace dm
