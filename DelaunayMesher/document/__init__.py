@@ -5,6 +5,7 @@ mesh = document.add_mesh(part, max_size=5.0, order=2)
 document.run(mesh)
 """
 
+from ..options import make_options
 from .find_freecad import find_freecad
 
 find_freecad()
@@ -21,6 +22,7 @@ __all__ = [
     "convert",
     "fem_mesh",
     "find_freecad",
+    "make_options",
     "mesh_shape",
     "plc_from_shape",
     "read_shape",

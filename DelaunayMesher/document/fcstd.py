@@ -47,4 +47,4 @@ def save(document, path):
             document.saveAs(draft)
             os.replace(draft, path)
     except OSError as error:
-        raise InputError("output", "unwritable", "%s: %s" % (path, error)) from None
+        raise InputError("output", "unwritable", "%s: %s" % (path, error.strerror)) from None

@@ -51,12 +51,12 @@ PARTS = {
 
 # Sizes at which a mesh is made in a second or two.
 SIZES = {
-    "bracket": 8.0,
+    "bracket": 12.0,
     "box": 4.0,
     "cylinder": 2.5,
     "sphere": 4.0,
     "torus": 4.0,
     "cone_frustum": 3.0,
     "lofted": 5.0,
-    "plate": 8.0,
+    "plate": 12.0,
 }

@@ -1,0 +1,245 @@
+"""The document object: made in two lines, filled by run(), kept on failure, saved, reopened, never meshed by
+recomputing; FreeCAD's own refinements and groups work on it.
+"""
+
+import json
+
+import FreeCAD
+import numpy as np
+import ObjectsFem
+import pytest
+
+from DelaunayMesher import document
+from DelaunayMesher.errors import InputError, MeshCancelled, MeshError
+from DelaunayMesher.options import OPTIONS
+from DelaunayMesher.quality import edge_lengths
+
+
+@pytest.fixture
+def file():
+    opened = FreeCAD.newDocument("meshes")
+    yield opened
+    FreeCAD.closeDocument(opened.Name)
+
+
+@pytest.fixture
+def box(file):
+    part = file.addObject("Part::Box", "Box")
+    part.Length, part.Width, part.Height = 20, 10, 10
+    file.recompute()
+    return part
+
+
+def counts(target):
+    mesh = target.FemMesh
+    return mesh.NodeCount, mesh.VolumeCount, mesh.FaceCount, mesh.EdgeCount
+
+
+def test_two_lines_make_a_mesh(box):
+    target = document.add_mesh(box, max_size=4.0, order=2)
+    mesh = document.run(target)
+    assert counts(target)[:2] == (len(mesh.points), len(mesh.tets)) and len(mesh.tets) > 50
+    assert target.Proxy.Type == "Fem::FemMeshDelaunay" and target.Shape == box
+    assert "%d tetrahedra" % len(mesh.tets) in target.Summary
+    assert json.loads(target.Report)["tetrahedra"] == len(mesh.tets)
+
+
+def test_every_option_is_a_property(box):
+    target = document.add_mesh(box, growth=0.3, seed=7, order=2, optimise=False)
+    for option in OPTIONS:
+        assert option.property_name in target.PropertiesList
+        assert target.getDocumentationOfProperty(option.property_name)
+    assert (target.Growth, target.Seed, target.ElementOrder, target.Optimise) == (0.3, 7, "2nd", False)
+
+
+def test_properties_decide(box):
+    target = document.add_mesh(box, max_size=8.0)
+    coarse = document.run(target)
+    target.MaxSize = 3.0
+    target.ElementOrder = "2nd"
+    fine = document.run(target)
+    assert len(fine.tets) > 4 * len(coarse.tets) and fine.order == 2
+    assert counts(target)[1] == len(fine.tets)
+
+
+def test_the_same_seed_gives_the_same_mesh(box):
+    first = document.run(document.add_mesh(box, max_size=4.0))
+    second = document.run(document.add_mesh(box, max_size=4.0))
+    assert np.array_equal(first.points, second.points) and np.array_equal(first.tets, second.tets)
+
+
+def test_recomputing_does_not_mesh(file, box):
+    target = document.add_mesh(box, max_size=4.0)
+    file.recompute()
+    assert counts(target) == (0, 0, 0, 0)
+    document.run(target)
+    before = counts(target)
+    box.Length = 60
+    target.MaxSize = 1.0
+    file.recompute()
+    assert counts(target) == before
+
+
+def test_save_and_reopen(file, box, tmp_path):
+    target = document.add_mesh(box, max_size=4.0, order=2, sizes={"Face1": 1.5})
+    document.run(target)
+    before, summary, name = counts(target), target.Summary, target.Name
+    path = str(tmp_path / "mesh.FCStd")
+    file.saveCopy(path)
+    again = FreeCAD.openDocument(path)
+    try:
+        target = again.getObject(name)
+        assert counts(target) == before and target.Summary == summary
+        assert type(target.Proxy).__name__ == "MeshDelaunay"
+        assert (target.MaxSize.Value, target.ElementOrder, target.Sizes) == (4.0, "2nd", ["Face1=1.5"])
+        assert target.FemMesh.GroupCount == 6 + 12 + 1
+        document.run(target)
+        assert counts(target) == before
+    finally:
+        FreeCAD.closeDocument(again.Name)
+
+
+def test_an_old_object_gets_the_options_it_lacks(box):
+    target = document.add_mesh(box, max_size=4.0)
+    target.removeProperty("TargetAngle")
+    target.removeProperty("Sizes")
+    target.Proxy.onDocumentRestored(target)
+    assert target.TargetAngle.Value == 20.0 and target.Sizes == []
+    assert target.MaxSize.Value == 4.0
+
+
+def test_a_failure_keeps_the_old_mesh(file, box):
+    target = document.add_mesh(box, max_size=4.0)
+    document.run(target)
+    before, summary = counts(target), target.Summary
+    target.Shape = file.addObject("Part::Plane", "Plane")
+    file.recompute()
+    with pytest.raises(MeshError, match="without a solid"):
+        document.run(target)
+    assert (counts(target), target.Summary) == (before, summary)
+
+
+def test_cancelling_keeps_the_old_mesh(box):
+    target = document.add_mesh(box, max_size=4.0)
+    document.run(target)
+    before = counts(target)
+    target.MaxSize = 1.0
+    seen = []
+
+    def report(stage, fraction):
+        seen.append((stage, fraction))
+        return len(seen) < 4
+
+    with pytest.raises(MeshCancelled):
+        document.run(target, report)
+    assert counts(target) == before
+    with pytest.raises(MeshCancelled):
+        document.run(target, lambda stage, fraction: False)
+
+
+def test_wrong_options_create_nothing(file, box):
+    objects = len(file.Objects)
+    for wrong in ({"max_size": -1.0}, {"max_sise": 1.0}, {"order": 3}, {"sizes": {"Fase1": 1.0}}):
+        with pytest.raises(InputError):
+            document.add_mesh(box, **wrong)
+    assert len(file.Objects) == objects
+    target = document.add_mesh(box, sizes={"Face7": 1.0})
+    with pytest.raises(InputError, match="Face7"):
+        document.run(target)
+
+
+def test_a_mesh_joins_the_given_analysis(file, box):
+    analysis = ObjectsFem.makeAnalysis(file, "Analysis")
+    target = document.add_mesh(box, analysis=analysis, max_size=5.0)
+    assert target in analysis.Group
+    assert document.add_mesh(box) not in analysis.Group
+
+
+def mean_edge(mesh, name):
+    """Mean edge length of the tetrahedra that touch a CAD element."""
+    touching = np.isin(mesh.tets[:, :4], mesh.nodes_of(name)).any(axis=1)
+    return edge_lengths(mesh.points, mesh.tets[touching]).mean()
+
+
+def test_freecads_refinements_make_it_finer(file, box):
+    target = document.add_mesh(box, max_size=4.0)
+    refinement = ObjectsFem.makeMeshRegion(file, target, 0.8)
+    refinement.References = [(box, "Face1")]
+    mesh = document.run(target)
+    assert mean_edge(mesh, "Face1") < 1.2
+    assert mean_edge(mesh, "Face2") > 2.0
+    empty = ObjectsFem.makeMeshRegion(file, target, 0.0)
+    assert any(empty.Label in warning for warning in document.run(target).warnings)
+
+
+def test_a_reference_to_a_part_of_the_part(file, box):
+    """The refinement refers to the box from which the meshed part was cut."""
+    hole = file.addObject("Part::Cylinder", "Hole")
+    hole.Radius, hole.Placement.Base = 1.5, FreeCAD.Vector(10, 5, 0)
+    cut = file.addObject("Part::Cut", "Cut")
+    cut.Base, cut.Tool = box, hole
+    file.recompute()
+    target = document.add_mesh(cut, max_size=4.0)
+    refinement = ObjectsFem.makeMeshRegion(file, target, 0.8)
+    refinement.References = [(box, "Face1")]  # x = 0, which the hole does not touch
+    mesh = document.run(target)
+    left = edge_lengths(mesh.points, mesh.tets[mesh.points[mesh.tets[:, 0], 0] < 0.8]).mean()
+    assert left < 1.2
+    refinement.References = [(box, "Face6")]  # the cut changed it
+    with pytest.raises(InputError, match="not an element of the meshed part"):
+        document.run(target)
+
+
+def test_freecads_mesh_groups(file, box):
+    target = document.add_mesh(box, max_size=4.0)
+    group = ObjectsFem.makeMeshGroup(file, target, True)
+    group.Label = "Loaded faces"
+    group.References = [(box, ("Face1", "Face3"))]
+    points = ObjectsFem.makeMeshGroup(file, target)
+    points.References = [(box, ("Vertex1", "Vertex2"))]
+    mesh = document.run(target)
+    groups = {target.FemMesh.getGroupName(number): number for number in target.FemMesh.Groups}
+    loaded = groups["Loaded faces"]
+    assert target.FemMesh.getGroupElementType(loaded) == "Face"
+    assert len(target.FemMesh.getGroupElements(loaded)) == np.isin(mesh.triangle_face, (0, 2)).sum()
+    assert target.FemMesh.getGroupElementType(groups[points.Name]) == "Node"
+    assert len(target.FemMesh.getGroupElements(groups[points.Name])) == 2
+
+
+def test_a_seam_that_a_constraint_refers_to_has_nodes(file):
+    cylinder = file.addObject("Part::Cylinder", "Cylinder")
+    cylinder.Radius = 5
+    file.recompute()
+    seam = next(
+        "Edge%d" % (number + 1)
+        for number, edge in enumerate(cylinder.Shape.Edges)
+        if edge.isSeam(cylinder.Shape.Faces[0])
+    )
+    analysis = ObjectsFem.makeAnalysis(file, "Analysis")
+    target = document.add_mesh(cylinder, analysis=analysis, max_size=3.0)
+    assert len(document.run(target).nodes_of(seam)) == 0
+    fixed = ObjectsFem.makeConstraintFixed(file, "Fixed")
+    fixed.References = [(cylinder, seam)]
+    analysis.addObject(fixed)
+    mesh = document.run(target)
+    found = target.FemMesh.getNodesByEdge(cylinder.Shape.getElement(seam))
+    assert sorted(found) == (mesh.nodes_of(seam) + 1).tolist() and len(found) > 3
+
+
+def test_write_fcstd(box, tmp_path):
+    shape = box.Shape.copy()
+    options = document.make_options(max_size=4.0, order=2, sizes={"Face2": 2.0})
+    mesh = document.mesh_shape(shape, options)
+    path = tmp_path / "out.FCStd"
+    document.write_fcstd(str(path), mesh, shape, mesh.options, mesh.aliases)
+    assert [item.name for item in tmp_path.iterdir()] == ["out.FCStd"]
+    again = FreeCAD.openDocument(str(path))
+    try:
+        target = next(item for item in again.Objects if item.isDerivedFrom("Fem::FemMeshObject"))
+        assert target.FemMesh.VolumeCount == len(mesh.tets)
+        assert target.Shape.Shape.Volume == pytest.approx(2000)
+        assert target.Sizes == ["Face2=2"]
+    finally:
+        FreeCAD.closeDocument(again.Name)
+    with pytest.raises(InputError, match="No such"):
+        document.write_fcstd(str(tmp_path / "none" / "out.FCStd"), mesh, shape)
