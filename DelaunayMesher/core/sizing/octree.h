@@ -7,7 +7,7 @@
 // Precondition: the exact field is Lipschitz with its growth rate.  Postcondition (checked by tests): within
 // about 5 % of the exact field in the domain (13 % at worst, beside edge and vertex sources).  The jump
 // between neighbouring leaves is of the same order as that error.
-// Cost: about 0.1 leaf (32 bytes) per tetrahedron asked for; lookup 10 to 90 ns.
+// Cost: about 0.1 leaf (32 bytes) per tetrahedron asked for; lookup 20 to 40 ns in coherent order.
 // Limit: kMaxLeaves leaves; beyond it the finest leaves hold their smallest value all over.
 #pragma once
 
