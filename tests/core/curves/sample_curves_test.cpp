@@ -1,0 +1,124 @@
+#include "curves/sample_curves.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "curves/chains.h"
+
+using namespace dm;
+
+namespace {
+
+// A wedge of a disc, thickened: what matters here are its edges.  One full circle (edge 0, n segments, a
+// corner at its start), a loop without corner (edge 1) and a straight edge (edge 2) between two corners.
+struct Curves {
+  Plc plc;
+  GeometryRecords records;
+  explicit Curves(int n, double length) {
+    const double turn = 2 * std::numbers::pi;
+    for (int loop = 0; loop < 2; ++loop) {
+      const Index base = static_cast<Index>(plc.points.size());
+      for (int i = 0; i < n; ++i) {
+        plc.points.push_back({10 * std::cos(turn * i / n), 10 * std::sin(turn * i / n), 5.0 * loop});
+        plc.segments.push_back({base + i, base + (i + 1) % n});
+        plc.segment_edge.push_back(loop);
+      }
+      records.edges.push_back({CurveKind::circle, {0, 0, 5.0 * loop}, {0, 0, 1}, 10, -1});
+    }
+    const Index a = static_cast<Index>(plc.points.size());
+    plc.points.push_back({20, 0, 0});
+    plc.points.push_back({20 + length, 0, 0});
+    plc.segments.push_back({a + 1, a});  // against the chain's direction
+    plc.segment_edge.push_back(2);
+    records.edges.push_back({CurveKind::line, {20, 0, 0}, {1, 0, 0}, 0, -1});
+    plc.corners = {0, a, a + 1};
+    plc.corner_vertex = {0, 1, 2};
+    plc.edge_count = plc.vertex_count = 3;
+    plc.triangles.push_back({0, a, a + 1});
+    plc.triangle_face.push_back(0);
+    plc.face_solids.push_back({1, 0});
+    plc.solid_count = 1;
+    records.faces.push_back({});
+  }
+};
+
+CurveSampling sample(const Curves& c, double size, CurveOptions options = {}) {
+  const Geometry geometry(c.plc, c.records);
+  Context context;
+  SizeOptions sizes;
+  sizes.max_size = size;
+  sizes.elements_per_circle = sizes.elements_across = 0;
+  const SizeField field(c.plc, geometry, sizes, context);
+  return sample_curves(c.plc, geometry, field, options, context);
+}
+
+Index count_segments(const CurveSampling& s, Index edge) {
+  return static_cast<Index>(std::count(s.segment_edge.begin(), s.segment_edge.end(), edge));
+}
+
+}  // namespace
+
+TEST_CASE("chains: from corner to corner, and loops without one") {
+  const Curves c(12, 4);
+  const auto chains = find_chains(c.plc, {});
+  REQUIRE(chains.size() == 3);
+  for (const Chain& chain : chains) {
+    CHECK(chain.points.size() == chain.segments.size() + 1);
+    CHECK(chain.closed() == (chain.edge != 2));
+  }
+  std::vector<char> keep(c.plc.points.size(), 0);
+  keep[3] = keep[6] = 1;
+  CHECK(find_chains(c.plc, keep).size() == 5);
+}
+
+TEST_CASE("samples lie on the exact curve, evenly, and follow the wanted length") {
+  const Curves c(10, 33);
+  const CurveSampling s = sample(c, 2.5, {0.8, 0, {}});
+  const Geometry geometry(c.plc, c.records);
+  CHECK(count_segments(s, 0) == 31);  // 20 pi / 2 = 31.4
+  CHECK(count_segments(s, 1) == 31);
+  CHECK(count_segments(s, 2) == 17);  // 16.5: nearer to 17 parts by ratio
+  for (std::size_t i = 0; i < s.segments.size(); ++i) {
+    const auto [a, b] = s.segments[i];
+    const Index edge = s.segment_edge[i];
+    CHECK(s.role[a] == CurvePointRole::fixed);
+    CHECK(distance(geometry.project_to_edge(edge, s.points[a]), s.points[a]) < 1e-9);
+    CHECK(distance(s.points[a], s.points[b]) == doctest::Approx(2).epsilon(0.06));
+  }
+}
+
+TEST_CASE("samples are listed along their segments") {
+  const Curves c(7, 33);
+  const CurveSampling s = sample(c, 1);
+  REQUIRE(s.first.size() == c.plc.segments.size() + 1);
+  for (std::size_t k = 0; k < c.plc.segments.size(); ++k) {
+    const Vec3 start = c.plc.points[c.plc.segments[k][0]];
+    double last = 0;
+    for (Index i = s.first[k]; i < s.first[k + 1]; ++i) {
+      const double d = distance(start, s.points[s.inserted[i]]);
+      CHECK(d > last);
+      last = d;
+    }
+  }
+}
+
+TEST_CASE("a coarse size keeps circles round and short edges whole") {
+  const Curves c(24, 0.01);
+  const CurveSampling s = sample(c, 1000);
+  CHECK(count_segments(s, 0) == 4);
+  CHECK(count_segments(s, 1) == 4);
+  CHECK(count_segments(s, 2) == 1);
+}
+
+TEST_CASE("points asked to stay do") {
+  const Curves c(24, 4);
+  CurveOptions options;
+  options.keep.assign(c.plc.points.size(), 0);
+  options.keep[5] = 1;
+  const CurveSampling s = sample(c, 100, options);
+  CHECK(s.role[5] == CurvePointRole::fixed);
+  CHECK(s.points[5] == c.plc.points[5]);
+}

@@ -1,0 +1,150 @@
+#include "surfaces/remesh.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "shapes.h"
+
+using namespace dm;
+using shapes::Shape;
+
+namespace {
+
+struct Case {
+  std::string name;
+  Shape shape;
+  double max_size;
+  double area;            // exact
+  double area_tolerance;  // relative
+};
+
+std::vector<Case> cases() {
+  const double pi = std::numbers::pi;
+  std::vector<Case> list;
+  list.push_back({"box", shapes::box(30, 20, 10), 2.5, 2 * (600 + 200 + 300), 1e-9});
+  list.push_back({"two boxes", shapes::two_boxes(), 1.5, 6 * 100 + 2 * 150 + 2 * 150 + 100, 1e-9});
+  list.push_back({"cylinder", shapes::turned(10, 10, 30, 0, 24), 3, 2 * pi * 100 + 600 * pi, 0.02});
+  list.push_back({"tube", shapes::turned(10, 10, 30, 4, 20), 3, 2 * pi * 84 + 840 * pi, 0.02});
+  list.push_back(
+      {"frustum", shapes::turned(10, 4, 20, 0, 24), 2, pi * 116 + 14 * pi * std::hypot(6, 20), 0.02});
+  list.push_back({"cone", shapes::turned(8, 0, 20, 0, 24), 2, pi * 64 + 8 * pi * std::hypot(8, 20), 0.02});
+  list.push_back({"sphere", shapes::sphere(10, 24), 2, 400 * pi, 0.02});
+  list.push_back({"torus", shapes::torus(20, 6, 48, 20), 3, 480 * pi * pi, 0.02});
+  return list;
+}
+
+struct Run {
+  Geometry geometry;
+  Context context;
+  SizeField size;
+  SurfaceMesh mesh;
+  static SizeOptions size_options(double max_size) {
+    SizeOptions options;
+    options.max_size = max_size;
+    options.elements_across = 0;
+    return options;
+  }
+  static Context make_context(int threads) {
+    Context c;
+    c.threads = threads;
+    return c;
+  }
+  Run(const Shape& shape, const SizeOptions& options, int threads = 1)
+      : geometry(shape.plc, shape.records),
+        context(make_context(threads)),
+        size(shape.plc, geometry, options, context),
+        mesh(mesh_surfaces(shape.plc, geometry, size, {}, context)) {
+    check_plc(shape.plc);
+    check_surface_mesh(mesh, shape.plc, geometry);
+  }
+};
+
+double min_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  auto at = [](const Vec3& p, const Vec3& q, const Vec3& r) {
+    return std::acos(std::clamp(dot(normalized(q - p), normalized(r - p)), -1.0, 1.0)) * 180 /
+           std::numbers::pi;
+  };
+  return std::min({at(a, b, c), at(b, c, a), at(c, a, b)});
+}
+
+struct Statistics {
+  double area = 0, min_angle = 180, least_alignment = 1, median_ratio = 0;
+};
+
+Statistics measure(const Run& run) {
+  Statistics s;
+  std::vector<double> ratios;
+  const auto& points = run.mesh.points;
+  for (std::size_t t = 0; t < run.mesh.triangles.size(); ++t) {
+    const auto [i, j, k] = run.mesh.triangles[t];
+    const Vec3 n = area_vector(points[i], points[j], points[k]);
+    const Vec3 centre = (1.0 / 3) * (points[i] + points[j] + points[k]);
+    s.area += norm(n) / 2;
+    s.min_angle = std::min(s.min_angle, min_angle(points[i], points[j], points[k]));
+    s.least_alignment = std::min(s.least_alignment,
+                                 dot(normalized(n), run.geometry.normal(run.mesh.triangle_face[t], centre)));
+    for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, k}, std::pair{k, i}})
+      if (a < b)
+        ratios.push_back(distance(points[a], points[b]) / (0.8 * run.size.at(0.5 * (points[a] + points[b]))));
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
+                   ratios.end());
+  s.median_ratio = ratios[ratios.size() / 2];
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("every shape: closed, on the surface, well shaped, of the wanted size") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    const Run run(c.shape, Run::size_options(c.max_size));
+    const Statistics s = measure(run);
+    CHECK(std::abs(s.area / c.area - 1) < c.area_tolerance);
+    CHECK(s.min_angle > (c.name == "cone" ? 12 : 24));
+    CHECK(s.least_alignment > (c.name == "cone" ? 0.3 : 0.9));
+    CHECK(s.median_ratio > 0.85);
+    CHECK(s.median_ratio < 1.15);
+  }
+}
+
+TEST_CASE("the result does not depend on the number of threads") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    const Run one(c.shape, Run::size_options(c.max_size)), three(c.shape, Run::size_options(c.max_size), 3);
+    CHECK(one.mesh.points == three.mesh.points);
+    CHECK(one.mesh.triangles == three.mesh.triangles);
+    CHECK(one.mesh.segments == three.mesh.segments);
+  }
+}
+
+TEST_CASE("graded field: small edges at one corner, large ones far away") {
+  SizeOptions options = Run::size_options(8);
+  options.regions.push_back({0, {0, 0, 0}, {}, 1, 0.4, 0});
+  const Run run(shapes::box(30, 20, 10), options);
+  const Statistics s = measure(run);
+  CHECK(s.min_angle > 20);
+  CHECK(s.median_ratio > 0.85);
+  CHECK(s.median_ratio < 1.15);
+}
+
+TEST_CASE("sizes far coarser than the shape neither fold nor lose faces") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    SizeOptions options = Run::size_options(1000);
+    options.elements_per_circle = 0;
+    const Run run(c.shape, options);
+    CHECK(measure(run).least_alignment > 0);
+  }
+}
+
+TEST_CASE("cancelling stops the stage") {
+  const Shape shape = shapes::box(30, 20, 10);
+  const Geometry geometry(shape.plc, shape.records);
+  Context quiet;
+  const SizeField size(shape.plc, geometry, Run::size_options(1), quiet);
+  Context context([](const char* stage, double) { return std::string(stage) != "surfaces"; });
+  CHECK_THROWS_AS(mesh_surfaces(shape.plc, geometry, size, {}, context), Cancelled);
+}
