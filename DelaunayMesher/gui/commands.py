@@ -14,7 +14,7 @@ class MeshSolid:
             "Pixmap": icon("mesh_solid"),
             "MenuText": tr("Mesh this solid"),
             "ToolTip": tr(
-                "Tetrahedral FEM mesh of the selected solid by Delaunay refinement. It is added to the active "
+                "Tetrahedral FEM mesh of the selected solid by Delaunay refinement. It goes into the active "
                 "analysis, if there is one"
             ),
         }

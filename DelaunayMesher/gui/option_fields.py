@@ -4,6 +4,8 @@ A field has value() and set(value) in the option's own type, None for automatic.
 units and expressions, as everywhere in FreeCAD.
 """
 
+import math
+
 import FreeCADGui
 from PySide import QtCore, QtGui
 
@@ -195,5 +197,5 @@ def make_field(option):
 
 
 def step_for(value):
-    """A step of the arrows that suits a value: 1, 0.1, 0.01, ..."""
-    return 10.0 ** len("%d" % value) / 100 if value >= 1 else 10 ** (-1.0 - len("%d" % (0.5 / max(value, 1e-9))))
+    """A step of the arrows that suits a value: a tenth of its power of ten."""
+    return 10.0 ** (math.floor(math.log10(value)) - 1) if value > 0 else 0.1

@@ -1,0 +1,108 @@
+"""In FreeCAD's window: refine a face, mesh again, look at the quality panel, click on an element, cut."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import drive
+import FreeCAD
+import FreeCADGui
+from drive import say, wait, wait_until
+
+
+def make_mesh():
+    """A cylinder meshed from the panel."""
+    document = FreeCAD.newDocument("Part")
+    part = document.addObject("Part::Cylinder", "Cylinder")
+    part.Radius, part.Height = 10, 30
+    document.recompute()
+    drive.view_all()
+    drive.select(part)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.3)
+    run_panel()
+    target = drive.panel().target
+    drive.panel().reject()
+    wait(0.3)
+    return part, target
+
+
+def run_panel():
+    """Press Mesh and wait."""
+    panel = drive.panel()
+    panel.run_box.button.click()
+    wait_until(lambda: not panel.running)
+    say(panel.target.Summary)
+
+
+def refine(part, target):
+    """The command makes FreeCAD's own refinement; the mesh becomes finer there."""
+    before = target.FemMesh.VolumeCount
+    drive.select(part, "Face2")
+    FreeCADGui.runCommand("DelaunayMesher_RefineFaces")
+    wait(0.5)
+    refinement = (target.MeshRegionList or target.MeshRefinementList)[0]
+    assert FreeCADGui.ActiveDocument.getInEdit().Object == refinement
+    assert refinement.References[0][1] in ("Face2", ("Face2",))
+    assert 0 < refinement.CharacteristicLength.Value < target.MaxSize.Value
+    FreeCADGui.ActiveDocument.resetEdit()
+    wait(0.3)
+    assert refinement in target.ViewObject.Proxy.claimChildren()
+    assert target.ViewObject.Proxy.doubleClicked(target.ViewObject)
+    wait(0.3)
+    run_panel()
+    say("tetrahedra before and after the refinement:", before, target.FemMesh.VolumeCount)
+    assert target.FemMesh.VolumeCount > 1.5 * before
+
+
+def quality_panel(target):
+    """From the mesh panel's button; the figures agree with the report."""
+    from DelaunayMesher.document.mesh_object import stored_report
+    from DelaunayMesher.gui.measures import MEASURES
+    from DelaunayMesher.gui.task_quality import QualityPanel
+
+    drive.panel().run_box.quality_button.click()
+    wait(0.5)
+    panel = QualityPanel.current
+    assert len(panel.values) == target.FemMesh.VolumeCount
+    assert abs(panel.values.min() - stored_report(target)["quality"]["min_dihedral"]) < 1e-6
+    assert sum(panel.plot_box.histogram.counts) == len(panel.values)
+    drive.picture("quality")
+
+    panel.worst_box.table.selectRow(0)
+    wait(0.3)
+    assert panel.overlay.chosen.getNumChildren() > 0
+    drive.picture("worst")
+
+    drive.view_all()
+    panel.cut_box.axis.setCurrentIndex(1)
+    wait(0.3)
+    kept = panel.kept()
+    assert 0 < kept.sum() < len(kept) and not target.ViewObject.Visibility
+    drive.picture("cut")
+    panel.cut_box.axis.setCurrentIndex(0)
+    panel.cut_box.bad_only.setChecked(True)
+    panel.cut_box.limit.setValue(35)
+    assert panel.kept().sum() == (panel.values < 35).sum()
+    drive.picture("bad_only")
+    for index in range(len(MEASURES)):
+        panel.plot_box.measure.setCurrentIndex(index)
+        wait(0.05)
+    scene = FreeCADGui.ActiveDocument.ActiveView.getSceneGraph()
+    children = scene.getNumChildren()
+    panel.reject()
+    wait(0.3)
+    assert scene.getNumChildren() == children - 1 and target.ViewObject.Visibility
+    assert not FreeCADGui.Control.activeDialog()
+
+
+def main():
+    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
+    wait(0.3)
+    part, target = make_mesh()
+    refine(part, target)
+    quality_panel(target)
+
+
+drive.start(main, "QUALITY")
