@@ -96,7 +96,9 @@ nb::dict mesh(const nb::dict& plc, const nb::object& geometry, const nb::dict& o
   out["below_target"] = below_target(result.below_target);
   put_elements(out, result.mesh, result.second_order, core_options.order == 2);
   out["seconds"] = pairs(result.seconds);
-  out["statistics"] = nb::dict(pairs(result.statistics));
+  nb::dict statistics;
+  for (const auto& [name, value] : result.statistics) statistics[name.c_str()] = value;
+  out["statistics"] = statistics;
   nb::list warnings;
   for (const std::string& warning : result.warnings) warnings.append(warning);
   out["warnings"] = warnings;
