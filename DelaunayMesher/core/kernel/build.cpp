@@ -44,7 +44,7 @@ class TriangulationBuilder {
  public:
   TriangulationBuilder(Triangulation& t, std::span<const Vec3> points) : t_(t), points_(points) {}
 
-  void run(int threads) {
+  void run(int threads, Index parallel_from) {
     InsertionOrder order = insertion_order(points_);
     const auto first = first_tetrahedron(points_, order.order);
     t_.numbers_ = std::move(order.order);
@@ -52,7 +52,7 @@ class TriangulationBuilder {
     for (const Index i : t_.numbers_) t_.points_.push_back(points_[i]);
     t_.vertex_tet_.assign(points_.size(), -1);
     start(first);
-    PartInsertion parts(t_, order.codes, threads);
+    PartInsertion parts(t_, order.codes, threads, parallel_from);
     for (std::size_t r = 0; r + 1 < order.rounds.size(); ++r)
       parts.insert_round(order.rounds[r], order.rounds[r + 1]);
     restore_numbers();
@@ -99,11 +99,11 @@ class TriangulationBuilder {
   std::span<const Vec3> points_;
 };
 
-Triangulation::Triangulation(std::span<const Vec3> points, int threads) {
+Triangulation::Triangulation(std::span<const Vec3> points, int threads, Index parallel_from) {
   for (const Vec3& p : points)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       throw Failure("kernel", "not_finite", "A point has a coordinate that is not a number or infinite.", p);
-  TriangulationBuilder(*this, points).run(threads);
+  TriangulationBuilder(*this, points).run(threads, parallel_from);
 }
 
 void Triangulation::move_slot(Index from, Index to) {

@@ -10,16 +10,16 @@ namespace dm {
 namespace {
 
 constexpr int kParts = 8;
-constexpr std::size_t kSmallestParallel = 50000;  // points; below this the passes cost more than they save
-constexpr double kSlotsPerPoint = 7.2;            // of a part; uniform points need 6.8
+constexpr double kSlotsPerPoint = 7.2;  // of a part; uniform points need 6.8
 
 }  // namespace
 
 void PartInsertion::insert_round(Index begin, Index end) {
   std::vector<Index> vertices(end - begin);
   std::iota(vertices.begin(), vertices.end(), begin);
-  for (const bool shifted : {false, true})
-    if (vertices.size() >= kSmallestParallel) vertices = insert_in_parts(std::move(vertices), end, shifted);
+  if (end - begin >= parallel_from_)
+    for (const bool shifted : {false, true})
+      if (!vertices.empty()) vertices = insert_in_parts(std::move(vertices), end, shifted);
   insert_serially(vertices);
 }
 

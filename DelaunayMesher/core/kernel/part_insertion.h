@@ -17,8 +17,8 @@ namespace dm {
 class PartInsertion {
  public:
   // `codes`: position of every vertex on the curve, ascending within a round.
-  PartInsertion(Triangulation& t, const std::vector<std::uint32_t>& codes, int threads)
-      : t_(t), codes_(codes), threads_(threads) {}
+  PartInsertion(Triangulation& t, const std::vector<std::uint32_t>& codes, int threads, Index parallel_from)
+      : t_(t), codes_(codes), threads_(threads), parallel_from_(parallel_from) {}
 
   // Inserts the vertices begin .. end - 1, all earlier ones being in.
   void insert_round(Index begin, Index end);
@@ -41,6 +41,7 @@ class PartInsertion {
   Triangulation& t_;
   const std::vector<std::uint32_t>& codes_;
   int threads_;
+  Index parallel_from_;
   std::vector<std::uint8_t> part_of_;
   Index hint_ = 0;
   Cavity cavity_;

@@ -312,18 +312,21 @@ TEST_CASE("rounded midpoints, coplanar with many others, can be inserted") {
 }
 
 TEST_CASE("the number of threads does not change a byte") {
-  const Points points = uniform(scaled(300000), 15);
-  const Triangulation one(points, 1);
-  one.check();
-  for (const int threads : {2, 3, 8}) {
-    const Triangulation many(points, threads);
-    REQUIRE(one.slot_count() == many.slot_count());
-    bool same = true;
-    for (Index i = 0; i < one.slot_count(); ++i) {
-      same &= one.corners(i) == many.corners(i);
-      for (int j = 0; j < 4; ++j) same &= one.is_free(i) || one.neighbour(i, j) == many.neighbour(i, j);
+  for (const Points& points : {uniform(scaled(100000), 15), grid(scaled(24)), cylinder(60, scaled(200))}) {
+    const Index from = static_cast<Index>(points.size() / 100);
+    const Triangulation one(points, 1, from);
+    one.check();
+    CHECK(tets_of(one) == tets_of(Triangulation(points)));
+    for (const int threads : {2, 3, 8}) {
+      const Triangulation many(points, threads, from);
+      REQUIRE(one.slot_count() == many.slot_count());
+      bool same = true;
+      for (Index i = 0; i < one.slot_count(); ++i) {
+        same &= one.corners(i) == many.corners(i);
+        for (int j = 0; j < 4; ++j) same &= one.neighbour(i, j) == many.neighbour(i, j);
+      }
+      for (Index v = 0; v < one.vertex_count(); ++v) same &= one.vertex_tet(v) == many.vertex_tet(v);
+      CHECK(same);
     }
-    for (Index v = 0; v < one.vertex_count(); ++v) same &= one.vertex_tet(v) == many.vertex_tet(v);
-    CHECK(same);
   }
 }
