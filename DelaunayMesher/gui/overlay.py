@@ -4,7 +4,7 @@ import FreeCADGui
 import numpy as np
 from pivy import coin
 
-from .colours import palette
+from .colours import QUALITY, palette
 
 CHOSEN = (0.85, 0.0, 0.45)
 COLOURS = 64
@@ -25,25 +25,26 @@ class Overlay:
     def remove(self):
         self.view.getSceneGraph().removeChild(self.root)
 
-    def show_surface(self, points, faces, goodness):
-        """Faces (f, 3) coloured by goodness (f,) in 0..1, with their edges."""
+    def show_surface(self, points, faces, shares, stops=QUALITY, with_edges=True):
+        """Faces (f, 3) coloured by shares (f,) in 0..1."""
         self.surface.removeAllChildren()
         if not len(faces):
             return
         colours = coin.SoMaterial()
-        colours.diffuseColor.setValues(0, COLOURS, palette(COLOURS))
+        colours.diffuseColor.setValues(0, COLOURS, palette(COLOURS, stops))
         binding = coin.SoMaterialBinding()
         binding.value = coin.SoMaterialBinding.PER_FACE_INDEXED
         used, compact = np.unique(faces, return_inverse=True)
         shape = coin.SoIndexedFaceSet()
         rows = with_ends(compact.reshape(-1, 3))
         shape.coordIndex.setValues(0, len(rows), rows)
-        index = np.clip(np.nan_to_num(goodness) * COLOURS, 0, COLOURS - 1).astype(int).tolist()
+        index = np.clip(np.nan_to_num(shares) * COLOURS, 0, COLOURS - 1).astype(int).tolist()
         shape.materialIndex.setValues(0, len(index), index)
         offset = coin.SoPolygonOffset()
         for node in (coordinates(points[used]), colours, binding, flat(), offset, shape):
             self.surface.addChild(node)
-        self.surface.addChild(edges(compact.reshape(-1, 3), (0.1, 0.1, 0.1), 1))
+        if with_edges:
+            self.surface.addChild(edges(compact.reshape(-1, 3), (0.1, 0.1, 0.1), 1))
 
     def show_chosen(self, corners):
         """One element, corners (4, 3), over everything else; None for none."""
@@ -98,7 +99,9 @@ def edges(faces, colour, width):
     lines = coin.SoIndexedLineSet()
     rows = with_ends(pairs)
     lines.coordIndex.setValues(0, len(rows), rows)
-    for node in (style, light, base, lines):
+    one_colour = coin.SoMaterialBinding()
+    one_colour.value = coin.SoMaterialBinding.OVERALL
+    for node in (style, light, one_colour, base, lines):
         branch.addChild(node)
     return branch
 

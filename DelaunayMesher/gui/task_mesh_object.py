@@ -12,9 +12,11 @@ from ..document import estimate, mesh_object
 from ..document.properties import get_option, set_option
 from ..errors import MeshError
 from ..options import OPTIONS
+from .legend import Legend
 from .mesh_job import MeshJob
 from .option_fields import make_field
-from .run_box import RunBox
+from .run_box import RunBox, number
+from .size_preview import SizePreview
 from .texts import icon, tr
 
 POLL_MILLISECONDS = 50
@@ -31,6 +33,7 @@ class MeshPanel:
         self.job = None
         self.options_box = OptionsBox(target)
         self.run_box = RunBox()
+        self.preview = SizePreview(target, self.options_box)
         self.form = [self.options_box, self.run_box]
         self.run_box.button.clicked.connect(self.start_or_cancel)
         self.run_box.quality_button.clicked.connect(self.show_quality)
@@ -56,6 +59,7 @@ class MeshPanel:
 
     def start(self):
         """Write the options down and run the mesher on them."""
+        self.preview.end()
         self.options_box.store(self.target)
         self.run_box.begin()
         try:
@@ -124,6 +128,12 @@ class OptionsBox(QtGui.QWidget):
         self.count = QtGui.QLabel()
         self.count.setWordWrap(True)
         self.count.setObjectName("Estimate")
+        self.preview_button = QtGui.QPushButton(tr("Preview sizes"))
+        self.preview_button.setCheckable(True)
+        self.preview_button.setToolTip(
+            tr("Show on the part how large the elements will be, and estimate their number")
+        )
+        self.legend = Legend()
         self.label_width = max(field.label.sizeHint().width() for field in self.fields.values())
         outer = QtGui.QVBoxLayout(self)
         outer.setContentsMargins(2, 2, 2, 2)
@@ -158,7 +168,10 @@ class OptionsBox(QtGui.QWidget):
         for row, field in enumerate(fields):
             field.add_to(grid, row)
         if name == "Size":
-            grid.addWidget(self.count, len(fields), 0, 1, 3)
+            below = len(fields)
+            grid.addWidget(self.count, below, 0, 1, 2)
+            grid.addWidget(self.preview_button, below, 2)
+            grid.addWidget(self.legend, below + 1, 0, 1, 3)
         return box
 
     def fold(self, open_):
@@ -166,7 +179,8 @@ class OptionsBox(QtGui.QWidget):
         self.more.setArrowType(QtCore.Qt.DownArrow if open_ else QtCore.Qt.RightArrow)
 
     def on_change(self):
-        """Automatic values and the estimate follow the fields."""
+        """Automatic values and the estimate follow the fields; a shown preview is no longer true."""
+        self.preview_button.setChecked(False)
         if self.shape is None or self.shape.isNull():
             return
         largest = self.fields["max_size"].value() or estimate.automatic_size(self.shape)
@@ -175,10 +189,7 @@ class OptionsBox(QtGui.QWidget):
         self.fields["max_size"].show_automatic(largest)
         self.fields["min_size"].show_automatic(largest / estimate.MIN_FRACTION)
         count = estimate.two_digits(estimate.uniform_count(self.shape, largest))
-        self.count.setText(
-            tr("At least %s tetrahedra; more where curvature, walls or refinements ask for them.")
-            % "{:,.0f}".format(count).replace(",", "\u202f")
-        )
+        self.count.setText(tr("At least %s tetrahedra, more round curves and walls") % number(count))
 
     def store(self, target):
         """Write changed values into the mesh object, as one step that can be undone."""

@@ -1,0 +1,120 @@
+"""In FreeCAD's window: preview of the sizes, preferences, a part inside a body, an expression."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import drive
+import FreeCAD
+import FreeCADGui
+from drive import say, wait, wait_until
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def open_bracket():
+    """The example part with its panel."""
+    document = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
+    part = document.getObject("Bracket")
+    part.ViewObject.show()
+    drive.view_all()
+    drive.select(part)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.3)
+    return part, drive.panel()
+
+
+def preview(part, panel):
+    """The estimate agrees with the run; the view is restored when an option changes."""
+    panel.options_box.preview_button.click()
+    wait_until(lambda: panel.preview.overlay is not None)
+    text = panel.options_box.count.text()
+    say(text)
+    estimate = int("".join(letter for letter in text if letter.isdigit()))
+    assert not part.ViewObject.Visibility
+    drive.picture("preview")
+    panel.options_box.fields["growth"].write(0.3)
+    wait(0.2)
+    assert part.ViewObject.Visibility and panel.preview.overlay is None
+    panel.run_box.button.click()
+    wait_until(lambda: not panel.running)
+    real = panel.target.FemMesh.VolumeCount
+    say("estimated", estimate, "made", real)
+    assert 0.6 * real < estimate < 1.5 * real
+    drive.view_all()
+    drive.picture("bracket")
+
+
+def expression(panel):
+    """A size that follows an expression of the document stays with it."""
+    panel.reject()
+    wait(0.2)
+    target = panel.target
+    target.setExpression("MaxSize", "2 mm + 4 mm")
+    target.Document.recompute()
+    target.ViewObject.Proxy.doubleClicked(target.ViewObject)
+    wait(0.3)
+    panel = drive.panel()
+    assert abs(panel.options_box.fields["max_size"].value() - 6.0) < 1e-9
+    panel.options_box.fields["seed"].write(7)
+    assert panel.reject()
+    wait(0.2)
+    assert target.ExpressionEngine and abs(target.MaxSize.Value - 6.0) < 1e-9 and target.Seed == 7
+
+
+def preferences(part):
+    """What is set there is what new meshes start with."""
+    from DelaunayMesher.gui.preferences import PreferencesPage
+
+    page = PreferencesPage()
+    page.loadSettings()
+    fields = {field.option.name: field for field in page.fields}
+    assert fields["order"].value() == 1
+    fields["order"].set(2)
+    fields["growth"].set(0.5)
+    page.saveSettings()
+    drive.select(part)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.3)
+    target = drive.panel().target
+    assert target.ElementOrder == "2nd" and abs(target.Growth - 0.5) < 1e-9
+    drive.panel().reject()
+    wait(0.2)
+    page.loadSettings()
+    assert fields["order"].value() == 2
+    fields["order"].set(1)
+    fields["growth"].set(0.25)
+    page.saveSettings()
+
+
+def body_with_box():
+    """A PartDesign body is a part like any other."""
+    document = FreeCAD.newDocument("Bodies")
+    body = document.addObject("PartDesign::Body", "Body")
+    box = document.addObject("PartDesign::AdditiveBox", "Block")
+    body.addObject(box)
+    document.recompute()
+    drive.select(body)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.3)
+    panel = drive.panel()
+    panel.run_box.button.click()
+    wait_until(lambda: not panel.running)
+    say("body:", panel.target.Summary)
+    assert panel.target.FemMesh.VolumeCount > 1000
+    panel.reject()
+    wait(0.2)
+
+
+def main():
+    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
+    wait(0.3)
+    part, panel = open_bracket()
+    preview(part, panel)
+    expression(panel)
+    preferences(part)
+    body_with_box()
+
+
+drive.start(main, "PREVIEW")
