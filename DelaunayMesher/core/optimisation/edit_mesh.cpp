@@ -1,7 +1,6 @@
 #include "optimisation/edit_mesh.h"
 
 #include <algorithm>
-#include <unordered_set>
 
 namespace dm {
 namespace {
@@ -17,15 +16,6 @@ Triangle face_corners(const Tet& tet, int face) {
   const auto& f = EditMesh::kFace[face];
   return {tet[f[0]], tet[f[1]], tet[f[2]]};
 }
-
-struct TriangleHash {
-  std::size_t operator()(const Triangle& t) const {
-    std::uint64_t h = static_cast<std::uint64_t>(t[0]) * 0x9e3779b97f4a7c15ULL;
-    h = (h ^ static_cast<std::uint64_t>(t[1])) * 0xbf58476d1ce4e5b9ULL;
-    h = (h ^ static_cast<std::uint64_t>(t[2])) * 0x94d049bb133111ebULL;
-    return h ^ (h >> 29);
-  }
-};
 
 }  // namespace
 
@@ -83,7 +73,7 @@ void EditMesh::mark_boundary() {
       if (n < t * 4) ++count;
     }
   if (count == mesh_.triangles.size()) return;
-  std::unordered_set<Triangle, TriangleHash> boundary;
+  std::unordered_set<Triangle, IndexHash> boundary;
   for (const Triangle& t : mesh_.triangles) boundary.insert(sorted(t));
   for (Index t = 0; t < slot_count(); ++t)
     for (int i = 0; i < 4; ++i)
@@ -136,6 +126,32 @@ bool EditMesh::on_one_face(Index a, Index b, Index c) const {
       return true;
   }
   return false;
+}
+
+void EditMesh::list_boundary() {
+  if (boundary_listed_) return;
+  boundary_listed_ = true;
+  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
+    triangle_of_[sorted(mesh_.triangles[k])] = static_cast<Index>(k);
+  for (const Segment& s : mesh_.segments) segments_.insert({std::min(s[0], s[1]), std::max(s[0], s[1])});
+}
+
+Index EditMesh::find_triangle(Index a, Index b, Index c) {
+  list_boundary();
+  const auto it = triangle_of_.find(sorted({a, b, c}));
+  return it == triangle_of_.end() ? -1 : it->second;
+}
+
+bool EditMesh::is_segment(Index a, Index b) {
+  list_boundary();
+  return segments_.count({std::min(a, b), std::max(a, b)}) > 0;
+}
+
+void EditMesh::set_triangle(Index k, const Triangle& corners) {
+  list_boundary();
+  triangle_of_.erase(sorted(mesh_.triangles[k]));
+  mesh_.triangles[k] = corners;
+  triangle_of_[sorted(corners)] = k;
 }
 
 Index EditMesh::take_slot() {
@@ -200,6 +216,11 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
       *match = open[--count];
     }
     for (Index v : corners) vertex_tet_[v] = t;
+  }
+  for (int k = 0; k < count; ++k) {  // new faces of the boundary
+    if (open[k].outside) continue;
+    mesh_.neighbours[open[k].link / 4][open[k].link % 4] = -1;
+    marks_[open[k].link / 4] |= static_cast<std::uint8_t>(1 << open[k].link % 4);
   }
   return created_;
 }

@@ -9,12 +9,23 @@
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "base/volume_mesh.h"
 #include "optimisation/quality.h"
 
 namespace dm {
+
+struct IndexHash {
+  template <std::size_t n>
+  std::size_t operator()(const std::array<Index, n>& key) const {
+    std::uint64_t h = 0;
+    for (const Index i : key) h = (h ^ static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15ULL;
+    return h ^ (h >> 29);
+  }
+};
 
 class EditMesh {
  public:
@@ -63,8 +74,16 @@ class EditMesh {
 
   void set_point(Index v, const Vec3& p) { mesh_.points[v] = p; }
   void set_bad(Index t, double bad) { bad_[t] = bad; }
-  // Puts `after` in the place of `before`.  Precondition: same outer faces, one solid, no marked inner face.
-  // Returns the slots of the new tetrahedra; the span is valid until the next call.
+  // The boundary triangle with these corners, -1 if none; its CAD face; is (a, b) a segment of a CAD edge?
+  Index find_triangle(Index a, Index b, Index c);
+  const Triangle& triangle(Index k) const { return mesh_.triangles[k]; }
+  Index triangle_face(Index k) const { return mesh_.triangle_face[k]; }
+  bool is_segment(Index a, Index b);
+  // Other corners for a boundary triangle; its tetrahedra are to be replaced along with it.
+  void set_triangle(Index k, const Triangle& corners);
+  // Puts `after` in the place of `before`.  Precondition: one solid, no marked inner face; same outer faces
+  // but for those without neighbour: they may change, and the new ones are marked. Returns the slots of the
+  // new tetrahedra; the span is valid until the next call.
   std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after);
   Index add_point(const Vec3& p, Entity entity);
 
@@ -72,6 +91,7 @@ class EditMesh {
   void build_vertex_tets();
   void build_point_faces();
   void mark_boundary();
+  void list_boundary();
   Index take_slot();
 
   VolumeMesh& mesh_;
@@ -79,7 +99,9 @@ class EditMesh {
   std::vector<std::uint8_t> marks_;
   std::vector<Index> vertex_tet_, face_start_, point_faces_, free_, stamp_, star_, created_;
   std::vector<Index> star_start_, star_tets_;
-  bool stars_listed_ = false;
+  std::unordered_map<Triangle, Index, IndexHash> triangle_of_;  // by sorted corners; filled on first use
+  std::unordered_set<Segment, IndexHash> segments_;
+  bool stars_listed_ = false, boundary_listed_ = false;
   Index stamp_value_ = 0;
   AngleCosines first_extremes_;
 };

@@ -125,24 +125,25 @@ void Flipper::plan_face_removal(Index tet, int face, Plan& best) const {
   if (is_allowed(plan)) best = plan;
 }
 
-bool Flipper::is_allowed(const Plan& plan) const {
+bool Flipper::is_allowed(const Plan& plan, std::span<const Triangle> boundary) const {
   AngleCosines before, after;
   for (int i = 0; i < plan.before_count; ++i) before.include(mesh_.cosines(mesh_.tet(plan.before[i])));
   for (int i = 0; i < plan.after_count; ++i) after.include(mesh_.cosines(plan.after[i]));
   if (!keeps_angles(before, after)) return false;
-  const auto was_there = [&](const Triangle& f) {
-    for (int i = 0; i < plan.before_count; ++i) {
-      const Tet& t = mesh_.tet(plan.before[i]);
-      int shared = 0;
-      for (Index v : t) shared += v == f[0] || v == f[1] || v == f[2];
-      if (shared == 3) return true;
-    }
-    return false;
+  const auto all_in = [](const auto& corners, const Triangle& f) {
+    int shared = 0;
+    for (Index v : corners) shared += v == f[0] || v == f[1] || v == f[2];
+    return shared == 3;
+  };
+  const auto may_be = [&](const Triangle& f) {
+    for (int i = 0; i < plan.before_count; ++i)
+      if (all_in(mesh_.tet(plan.before[i]), f)) return true;
+    return std::any_of(boundary.begin(), boundary.end(), [&](const Triangle& t) { return all_in(t, f); });
   };
   for (int i = 0; i < plan.after_count; ++i)
     for (const auto& f : EditMesh::kFace) {
       const Triangle corners{plan.after[i][f[0]], plan.after[i][f[1]], plan.after[i][f[2]]};
-      if (mesh_.on_one_face(corners[0], corners[1], corners[2]) && !was_there(corners)) return false;
+      if (mesh_.on_one_face(corners[0], corners[1], corners[2]) && !may_be(corners)) return false;
     }
   return true;
 }

@@ -11,6 +11,7 @@
 
 #include "optimisation/edit_mesh.h"
 #include "optimisation/fan.h"
+#include "plc/geometry.h"
 
 namespace dm {
 
@@ -26,12 +27,17 @@ class Flipper {
   // The same among the few candidates that succeed most: removal of one of the two edges with the largest
   // angles, up to five tetrahedra round it.  On refined Delaunay meshes nineteen flips of twenty.
   bool improve_blunt(Index tet, FlipGoal goal);
+  // Flip of a boundary edge inside one CAD face together with the tetrahedra round it, for the worst element.
+  // The two triangles become the other two of their quadrilateral; on a curved face only if the new edge lies
+  // as close to the face and the normals turn by less than 25 degrees.
+  bool improve_boundary(Index tet, const Geometry& geometry);
 
  private:
   struct Ring {
     Index a, b;  // the edge; the ring turns round a -> b by the right-hand rule
     int count = 0;
-    std::array<Index, kMaxRing> corner, tet;  // tet[i] = (a, b, corner[i], corner[i + 1])
+    std::array<Index, kMaxRing> corner,
+        tet;  // tet[i] = (a, b, corner[i], corner[i + 1]); an open ring has one less
   };
   struct Plan {
     double cost = 0;  // worst: the new worst badness; mean: the change of the sum
@@ -40,12 +46,17 @@ class Flipper {
     std::array<Tet, 2 * (kMaxRing - 2)> after;
   };
   bool find_ring(Index tet, int ia, int ib, int longest, Ring& ring) const;
+  bool find_open_ring(Index tet, int ia, int ib, Ring& ring) const;
+  bool keeps_surface(const Ring& ring, const Geometry& geometry, std::array<Index, 2>& triangles,
+                     std::array<Triangle, 2>& turned);
+  bool flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geometry);
   void start(FlipGoal goal, Plan& plan);
   void plan_edge_removal(Index tet, int ia, int ib, int longest, Plan& best);
   void plan_face_removal(Index tet, int face, Plan& best) const;
   double triangulate(const Ring& ring);
   void add_triangles(const Ring& ring, int i, int j, Plan& plan) const;
-  bool is_allowed(const Plan& plan) const;
+  // `boundary`: triangles that become part of the boundary.
+  bool is_allowed(const Plan& plan, std::span<const Triangle> boundary = {}) const;
   bool apply(const Plan& plan);
 
   EditMesh& mesh_;

@@ -17,7 +17,7 @@ constexpr int kPollEvery = 128;
 class Optimiser {
  public:
   Optimiser(VolumeMesh& mesh, const Geometry& geometry, const OptimiseOptions& options, Context& context)
-      : mesh_(mesh), smoother_(mesh_, geometry), flipper_(mesh_), context_(context) {
+      : mesh_(mesh), geometry_(geometry), smoother_(mesh_, geometry), flipper_(mesh_), context_(context) {
     target_ = badness_at(options.target_angle);
   }
 
@@ -86,6 +86,7 @@ class Optimiser {
     const auto pending = [&] { return !mesh_.removed(t) && mesh_.bad(t) > target_; };
     if (!pending()) return false;
     if (flipper_.improve(t)) return ++report_.flipped, true;
+    if (round > 0 && flipper_.improve_boundary(t, geometry_)) return ++report_.flipped, true;
     bool changed = false;
     const Tet corners = mesh_.tet(t);
     for (Index v : corners) {
@@ -97,6 +98,7 @@ class Optimiser {
   }
 
   EditMesh mesh_;
+  const Geometry& geometry_;
   Smoother smoother_;
   Flipper flipper_;
   Context& context_;

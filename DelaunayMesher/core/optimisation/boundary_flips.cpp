@@ -1,0 +1,116 @@
+// Flips of boundary edges (flips.h).
+#include "optimisation/flips.h"
+
+namespace dm {
+namespace {
+
+constexpr double kNormalTurn = 0.9;  // cosine of the largest angle between old and new normals
+
+bool share_edge(EditMesh& mesh, Index a, Index b) {
+  for (Index t : mesh.star(a))
+    for (Index v : mesh.tet(t))
+      if (v == b) return true;
+  return false;
+}
+
+}  // namespace
+
+// The ring of an edge on the outer boundary, from one boundary triangle to the other: corner.size() is one
+// more than the number of tetrahedra.
+bool Flipper::find_open_ring(Index start, int ia, int ib, Ring& ring) const {
+  const Tet& first = mesh_.tet(start);
+  ring.a = first[ia];
+  ring.b = first[ib];
+  ring.count = 0;
+  Tet rest{};  // the two corners off the edge, in the order of the turn
+  int filled = 0;
+  for (int i = 0; i < 4; ++i)
+    if (i != ia && i != ib) rest[filled++] = i;
+  if (!is_positive(mesh_.point(ring.a), mesh_.point(ring.b), mesh_.point(first[rest[0]]),
+                   mesh_.point(first[rest[1]])))
+    std::swap(rest[0], rest[1]);
+  int ic = rest[0], id = rest[1];
+  Index t = start;
+  for (int steps = 0; !mesh_.marked(t, id); ++steps) {  // back to the first tetrahedron
+    if (steps == kMaxRing) return false;
+    const Index kept = mesh_.tet(t)[ic], n = mesh_.neighbour(t, id);
+    t = n / 4;
+    ic = n % 4;
+    id = mesh_.corner_index(t, kept);
+  }
+  if (mesh_.neighbour(t, id) >= 0) return false;
+  ring.corner[ring.count] = mesh_.tet(t)[ic];
+  for (;;) {
+    if (ring.count + 1 == kMaxRing) return false;
+    ring.tet[ring.count++] = t;
+    const Index last = mesh_.tet(t)[id];
+    ring.corner[ring.count] = last;
+    const Index n = mesh_.neighbour(t, ic);
+    if (n < 0) break;
+    if (mesh_.marked(t, ic)) return false;
+    t = n / 4;
+    id = n % 4;
+    ic = mesh_.corner_index(t, last);
+  }
+  ++ring.count;
+  return ring.count >= 3;
+}
+
+// May the edge (a, b) of the boundary become (first corner, last corner)?  Gives the triangles and what they
+// turn into.
+bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::array<Index, 2>& triangles,
+                            std::array<Triangle, 2>& turned) {
+  const Index a = ring.a, b = ring.b, c = ring.corner[0], d = ring.corner[ring.count - 1];
+  if (mesh_.is_segment(a, b)) return false;
+  triangles = {mesh_.find_triangle(a, b, c), mesh_.find_triangle(a, b, d)};
+  if (triangles[0] < 0 || triangles[1] < 0) return false;
+  const Index face = mesh_.triangle_face(triangles[0]);
+  if (mesh_.triangle_face(triangles[1]) != face || share_edge(mesh_, c, d)) return false;
+  const auto area = [&](const Triangle& t) {
+    return area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]));
+  };
+  const Vec3 before =
+      normalized(area(mesh_.triangle(triangles[0]))) + normalized(area(mesh_.triangle(triangles[1])));
+  turned = {Triangle{a, c, d}, Triangle{b, d, c}};
+  if (dot(area(turned[0]), before) < 0) turned = {Triangle{a, d, c}, Triangle{b, c, d}};
+  for (const Triangle& t : turned)
+    if (dot(normalized(area(t)), normalized(before)) < kNormalTurn) return false;
+  if (geometry.is_plane(face)) return true;
+  const auto sagitta = [&](Index p, Index q) {
+    const Vec3 middle = 0.5 * (mesh_.point(p) + mesh_.point(q));
+    return distance(middle, geometry.project_to_face(face, middle));
+  };
+  return sagitta(c, d) <= 1.2 * sagitta(a, b);
+}
+
+bool Flipper::flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geometry) {
+  Ring ring;
+  if (!find_open_ring(tet, ia, ib, ring)) return false;
+  const int tets = ring.count - 1;
+  double worst = 0;
+  for (int i = 0; i < tets; ++i) worst = std::max(worst, mesh_.bad(ring.tet[i]));
+  Plan plan;
+  start(FlipGoal::worst, plan);
+  plan.cost = triangulate(ring);
+  if (plan.cost >= worst - 1e-3) return false;
+  add_triangles(ring, 0, ring.count - 1, plan);
+  plan.before_count = tets;
+  std::copy_n(ring.tet.begin(), tets, plan.before.begin());
+  std::array<Index, 2> triangles;
+  std::array<Triangle, 2> turned;
+  if (!keeps_surface(ring, geometry, triangles, turned)) return false;
+  if (!is_allowed(plan, turned)) return false;
+  for (int i = 0; i < 2; ++i) mesh_.set_triangle(triangles[i], turned[i]);
+  return apply(plan);
+}
+
+bool Flipper::improve_boundary(Index tet, const Geometry& geometry) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j)
+      if (!mesh_.interior(mesh_.tet(tet)[i]) && !mesh_.interior(mesh_.tet(tet)[j]) &&
+          flip_boundary_edge(tet, i, j, geometry))
+        return true;
+  return false;
+}
+
+}  // namespace dm
