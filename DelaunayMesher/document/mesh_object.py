@@ -175,7 +175,10 @@ def run(target, report=None, **extra):
     shape, options, keep, groups, warnings = collect(target, **extra)
     mesh = mesh_shape(shape, options, report, keep)
     mesh.warnings[:0] = warnings
+    start = time.perf_counter()
     filled = fem_mesh(mesh, groups)
+    mesh.seconds["write"] = time.perf_counter() - start
+    mesh.total_seconds += mesh.seconds["write"]
     store(target, mesh, filled)
     return mesh
 
