@@ -1,16 +1,23 @@
-"""What new meshes start with: the user's preferences, or the table's defaults."""
+"""What new meshes start with: the user's preferences, or the table's defaults.
+
+Only what FreeCAD's start needs is imported at the top.
+"""
 
 import FreeCAD
 
-from ..options import OPTIONS
-
 PATH = "User parameter:BaseApp/Preferences/Mod/DelaunayMesher"
-STORED = tuple(option for option in OPTIONS if option.kind != "length")
 
 
 def group():
     """The parameter group."""
     return FreeCAD.ParamGet(PATH)
+
+
+def stored_options():
+    """The rows of the options table that have a preference: all but lengths, which depend on the part."""
+    from ..options import OPTIONS
+
+    return [option for option in OPTIONS if option.kind != "length"]
 
 
 def stored_value(option):
@@ -20,9 +27,9 @@ def stored_value(option):
     text = group().GetString(option.property_name, "")
     if not text:
         return option.default
+    if option.kind == "bool":
+        return text == "True"
     try:
-        if option.kind == "bool":
-            return text == "True"
         return option.check(float(text))
     except (InputError, ValueError):
         return option.default
@@ -40,8 +47,12 @@ def options_for(part):
     """{name: value} that differs from the table's defaults, for a new mesh of `part`."""
     from ..document import estimate
 
-    chosen = {option.name: stored_value(option) for option in STORED}
-    changed = {option.name: chosen[option.name] for option in STORED if chosen[option.name] != option.default}
+    chosen = {option.name: stored_value(option) for option in stored_options()}
+    changed = {
+        option.name: chosen[option.name]
+        for option in stored_options()
+        if chosen[option.name] != option.default
+    }
     size = estimate.suggested_size(part.Shape)
     return {"max_size": size, **changed} if size else changed
 
@@ -60,7 +71,7 @@ class PreferencesPage:
         outer = QtGui.QVBoxLayout(self.form)
         box = QtGui.QGroupBox(tr("Defaults of new meshes"))
         grid = QtGui.QGridLayout(box)
-        self.fields = [make_field(option) for option in STORED]
+        self.fields = [make_field(option) for option in stored_options()]
         for row, field in enumerate(self.fields):
             field.add_to(grid, row)
         grid.setColumnStretch(1, 1)

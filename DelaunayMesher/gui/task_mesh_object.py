@@ -169,8 +169,10 @@ class OptionsBox(QtGui.QWidget):
             field.add_to(grid, row)
         if name == "Size":
             below = len(fields)
-            grid.addWidget(self.count, below, 0, 1, 2)
-            grid.addWidget(self.preview_button, below, 2)
+            line = QtGui.QHBoxLayout()
+            line.addWidget(self.count, 1)
+            line.addWidget(self.preview_button)
+            grid.addLayout(line, below, 0, 1, 3)
             grid.addWidget(self.legend, below + 1, 0, 1, 3)
         return box
 

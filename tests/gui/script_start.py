@@ -1,0 +1,113 @@
+"""In FreeCAD's window: start is quick, the preferences page opens, a missing extension is explained."""
+
+import os
+import sys
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import drive
+import FreeCAD
+import FreeCADGui
+from drive import say, wait
+from PySide import QtCore, QtGui
+
+LONGEST_START = 0.25  # seconds; some 0.02 on a machine that does nothing else
+
+
+def start_is_quick():
+    """Nothing heavy was imported when the window started; importing it all again takes little."""
+    ours = [name for name in sys.modules if name.startswith("DelaunayMesher")]
+    say("modules after the start:", sorted(ours))
+    assert "DelaunayMesher.options" not in ours and "DelaunayMesher.document" not in ours
+    for name in ours:
+        del sys.modules[name]
+    begin = time.perf_counter()
+    from DelaunayMesher.gui import startup  # noqa: F401
+
+    taken = time.perf_counter() - begin
+    say("import of the workbench %.3f s" % taken)
+    assert taken < LONGEST_START
+
+
+def message_of(action):
+    """Text of the message box that `action` opens; the box is closed."""
+    texts = []
+
+    def close():
+        box = QtGui.QApplication.activeModalWidget()
+        if box is None:
+            QtCore.QTimer.singleShot(100, close)
+            return
+        texts.append(box.text())
+        drive.picture("message", box)
+        box.accept()
+
+    QtCore.QTimer.singleShot(300, close)
+    action()
+    wait(0.2)
+    return texts[0]
+
+
+def missing_extension():
+    """Without the compiled part the command says what to do, and nothing is made."""
+    from DelaunayMesher import extension
+    from DelaunayMesher.errors import MeshError
+
+    def fail():
+        raise MeshError("extension", "no_extension", "there is no _core")
+
+    document = FreeCAD.newDocument("Part")
+    box = document.addObject("Part::Box", "Box")
+    document.recompute()
+    drive.select(box)
+    loaded, extension.load = extension.load, fail
+    text = message_of(lambda: FreeCADGui.runCommand("DelaunayMesher_MeshSolid"))
+    extension.load = loaded
+    say(text)
+    assert "setup.sh" in text and "pip install" in text and "no _core" in text
+    assert document.Objects == [box]
+
+
+def nothing_to_mesh():
+    """A face without a solid is refused in the panel, with a reason."""
+    document = FreeCAD.newDocument("Face")
+    plane = document.addObject("Part::Plane", "Plane")
+    document.recompute()
+    drive.select(plane)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.3)
+    panel = drive.panel()
+    panel.run_box.button.click()
+    drive.wait_until(lambda: not panel.running)
+    text = panel.run_box.log.toPlainText()
+    say(text)
+    assert "solid" in text
+    panel.reject()
+
+
+def preferences_dialog():
+    """Our page is in FreeCAD's dialog and can be drawn."""
+
+    def look():
+        dialog = QtGui.QApplication.activeModalWidget()
+        found.extend(box for box in dialog.findChildren(QtGui.QGroupBox) if "new meshes" in box.title())
+        dialog.reject()
+
+    found = []
+    QtCore.QTimer.singleShot(1500, look)
+    FreeCADGui.showPreferences("Delaunay Mesher", 0)
+    wait(0.3)
+    assert found
+
+
+def main():
+    start_is_quick()
+    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
+    wait(0.3)
+    missing_extension()
+    nothing_to_mesh()
+    preferences_dialog()
+
+
+drive.start(main, "START")
