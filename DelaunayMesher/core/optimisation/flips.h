@@ -34,7 +34,7 @@ class Flipper {
 
  private:
   struct Ring {
-    Index a, b;  // the edge; the ring turns round a -> b by the right-hand rule
+    Index a = -1, b = -1;  // the edge; the ring turns round a -> b by the right-hand rule
     int count = 0;
     std::array<Index, kMaxRing> corner,
         tet;  // tet[i] = (a, b, corner[i], corner[i + 1]); an open ring has one less
