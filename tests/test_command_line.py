@@ -1,5 +1,6 @@
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -179,3 +180,27 @@ def test_missing_extension_says_what_to_do(monkeypatch):
     with pytest.raises(DelaunayMesher.MeshError) as caught:
         DelaunayMesher.delaunay(np.zeros((4, 3)))
     assert "setup.sh" in str(caught.value)
+
+
+def test_extension_from_a_wheel_elsewhere(tmp_path):
+    """A copy of the package without its compiled part uses that of an installed wheel."""
+    shutil.copytree(
+        ROOT / "DelaunayMesher", tmp_path / "mod" / "DelaunayMesher", ignore=shutil.ignore_patterns("_core*")
+    )
+    (tmp_path / "wheel" / "DelaunayMesher").mkdir(parents=True)
+    for path in (ROOT / "DelaunayMesher").glob("_core*"):
+        shutil.copy(path, tmp_path / "wheel" / "DelaunayMesher")
+    code = "import DelaunayMesher, numpy; print(len(DelaunayMesher.delaunay(numpy.vstack([numpy.eye(3), [0, 0, 0]]))))"
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join([str(tmp_path / "mod"), str(tmp_path / "wheel")]),
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.stdout.split() == ["1"], done.stderr
