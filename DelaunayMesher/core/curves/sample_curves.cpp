@@ -94,16 +94,17 @@ class Sampler {
     pieces_.push_back({plc_.points[chain.points[0]], 0, 0});
     for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
       const Vec3 a = plc_.points[chain.points[i]], b = plc_.points[chain.points[i + 1]];
-      const double end_length = length_at(b);
-      const double wanted = kPiecesPerPart * distance(a, b) / std::min(length, end_length);
-      const int cuts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, 1e6));
-      for (int k = 1; k <= cuts; ++k) {
+      const double chord = distance(a, b);
+      // Each step is a fraction of the length wanted where it starts, so that no local refinement is stepped
+      // over.
+      for (double t = 0; t < 1;) {
+        t += length / (kPiecesPerPart * chord);
         Vec3 p = b;
-        if (k < cuts) {
-          p = a + (static_cast<double>(k) / cuts) * (b - a);
+        if (t < 1) {
+          p = a + t * (b - a);
           if (!straight) p = geometry_.project_to_edge(chain.edge, p);
         }
-        const double next_length = k < cuts ? length_at(p) : end_length;
+        const double next_length = length_at(p);
         const Piece& last = pieces_.back();
         const double step = 2 * distance(p, last.point) / (length + next_length);
         pieces_.push_back({p, last.metric + step, static_cast<Index>(i)});

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "surfaces/remesh_patch.h"
+#include "surfaces/triangle_shape.h"
 
 namespace dm {
 namespace {
@@ -11,12 +12,6 @@ constexpr double kAligned = 0.5;
 constexpr double kSlack = 0.1;        // of alignment, where the triangles are poorly aligned already
 constexpr double kWorstShape = 1e-4;  // of a triangle that a collapse may leave (flips improve it afterwards)
 constexpr double kLongest = 1.45;     // edge made by a collapse, over the wanted length
-
-// 1 for the equilateral triangle, 0 for a degenerate one.
-double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double sum = norm2(b - a) + norm2(c - b) + norm2(a - c);
-  return sum > 0 ? 2 * std::sqrt(3.0) * norm(area_vector(a, b, c)) / sum : 0;
-}
 
 }  // namespace
 
@@ -35,7 +30,7 @@ double PatchRemesher::collapse_quality(Index e, Index gone, double max_ratio) co
     if (worst < 0) return;
     const Index x = patch_.vertex[FacePatch::next(c)], y = patch_.vertex[FacePatch::prev(c)];
     if (x == keep || y == keep) return;
-    const double q = shape(points()[keep], points()[x], points()[y]);
+    const double q = triangle_shape(points()[keep], points()[x], points()[y]);
     if (q < kWorstShape || alignment(keep, x, y) < least) worst = -1;
     if (edge_ratio(keep, x) > max_ratio || edge_ratio(keep, y) > max_ratio) worst = -1;
     if (worst >= 0) worst = std::min(worst, q);
@@ -57,7 +52,7 @@ bool PatchRemesher::flip_towards_ear(Index v) {
       const Index m = patch_.twin[e];
       const Index a = patch_.apex(e), d = patch_.apex(m), b = patch_.target(e);
       if (a == d || alignment(a, v, d) < kAligned || alignment(d, b, a) < kAligned) return;
-      if (shape(points()[d], points()[b], points()[a]) < kWorstShape) return;
+      if (triangle_shape(points()[d], points()[b], points()[a]) < kWorstShape) return;
       if (patch_.find_edge(a, d) < 0) found = e;
     });
     if (found >= 0) {

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "surfaces/remesh_patch.h"
+#include "surfaces/triangle_shape.h"
 
 namespace dm {
 namespace {
@@ -12,6 +13,7 @@ constexpr double kDisplacement = 0.1;  // of the circumcentre, over the circumra
 constexpr double kLongEdge = 1.4;      // split at its middle when no centre will do
 constexpr double kClosest = 0.55;      // least distance of a new point from old ones, over the wanted length
 constexpr double kBoundaryHeight = 0.3;  // ... and from boundary edges, over their length
+constexpr double kFairShape = 0.2;       // a middle may not leave flatter triangles, unless they were before
 constexpr double kOnEdge = 0.02;   // height over the edge's length under which a point goes into the edge
 constexpr double kSameSide = 0.5;  // cosine between normals that may be walked over
 constexpr int kBucketsPerOctave = 4;
@@ -183,6 +185,11 @@ bool PatchRemesher::split_at_middle(Index e) {
   const Vec3 middle = 0.5 * (points()[a] + points()[b]);
   const Vec3 p = geometry_.project_to_face(face_, middle);
   if (!(distance(p, middle) < 0.5 * distance(points()[a], points()[b]))) return false;
+  const Vec3 &pa = points()[a], &pb = points()[b], &pc = points()[c], &pd = points()[d];
+  const double shape_before = std::min(triangle_shape(pa, pb, pc), triangle_shape(pb, pa, pd));
+  const double shape_after = std::min({triangle_shape(pa, p, pc), triangle_shape(p, pb, pc),
+                                       triangle_shape(pb, p, pd), triangle_shape(p, pa, pd)});
+  if (shape_after < std::min(kFairShape, 0.5 * shape_before)) return false;
   const double before = std::min(alignment(a, b, c), alignment(b, a, d));
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
   set_vertex(x, p, patch_.normals[a] + patch_.normals[b]);

@@ -70,27 +70,19 @@ void PatchRemesher::start_vertices() {
     set_vertex(v, patch_.points[v], {});
     if ((v & 255) == 0) poll_();
   }
-  if (!planar_) settle_normals();
+  if (!planar_) drop_doubtful_normals();
 }
 
-// Signs as the tessellation's; and no normal where the triangles disagree with it: at an apex or pole the
-// surface has none, and what the geometry says there misleads.
-void PatchRemesher::settle_normals() {
-  std::vector<Vec3> sum(patch_.points.size());
-  for (int pass = 0; pass < 2; ++pass) {
-    for (Index t = 0; t < patch_.triangle_slots(); ++t) {
-      const Index* v = &patch_.vertex[3 * t];
-      const Vec3 &a = points()[v[0]], &b = points()[v[1]], &c = points()[v[2]];
-      const Vec3 n = area_vector(a, b, c);
-      const double area = norm(n);
-      if (area < 1e-6 * longest2(a, b, c)) continue;
-      for (int i = 0; i < 3; ++i) {
-        if (pass == 0) sum[v[i]] += n;
-        if (pass == 1 && dot(n, patch_.normals[v[i]]) < 0.2 * area) patch_.normals[v[i]] = {};
-      }
-    }
-    for (Index v = 0; pass == 0 && v < patch_.vertex_count(); ++v)
-      if (dot(sum[v], patch_.normals[v]) < 0) patch_.normals[v] = -patch_.normals[v];
+// At an apex or pole the surface has no normal, and what the geometry says there misleads.
+void PatchRemesher::drop_doubtful_normals() {
+  for (Index t = 0; t < patch_.triangle_slots(); ++t) {
+    const Index* v = &patch_.vertex[3 * t];
+    const Vec3 &a = points()[v[0]], &b = points()[v[1]], &c = points()[v[2]];
+    const Vec3 n = area_vector(a, b, c);
+    const double area = norm(n);
+    if (area < 1e-6 * longest2(a, b, c)) continue;
+    for (int i = 0; i < 3; ++i)
+      if (dot(n, patch_.normals[v[i]]) < 0.2 * area) patch_.normals[v[i]] = {};
   }
 }
 

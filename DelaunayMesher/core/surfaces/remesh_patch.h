@@ -64,7 +64,7 @@ class PatchRemesher {
   const std::vector<Vec3>& points() const { return patch_.points; }
 
   void start_vertices();
-  void settle_normals();
+  void drop_doubtful_normals();
   // Puts v at p.  The normal's sign follows `hint` (near-degenerate surfaces have two sheets at hardly any
   // distance); a zero hint leaves it to the geometry.
   void set_vertex(Index v, const Vec3& p, const Vec3& hint);
