@@ -26,7 +26,7 @@ from DelaunayMesher import document  # noqa: E402
 from DelaunayMesher.quality import dihedral_angles  # noqa: E402
 
 OUTPUT = os.path.join(ROOT, "example_output")
-MAX_SIZE = float(os.environ.get("EXAMPLE_SIZE", "4.0"))  # mm
+MAX_SIZE = float(os.environ.get("EXAMPLE_SIZE", "5.0"))  # mm
 FORCE = 8000.0  # N
 BORE_RADIUS = 13.0
 
