@@ -1,5 +1,7 @@
 """FreeCAD's FemMesh -> arrays, whoever made it; and the surface of a part of it."""
 
+import re
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,6 +34,23 @@ def tetrahedra(fem_mesh):
     row[number] = np.arange(len(number))
     tets = row[np.array(corners, dtype=np.int64).reshape(-1, 4)]
     return Tetrahedra(points, tets, np.array(element, dtype=np.int64))
+
+
+def cad_faces(fem_mesh):
+    """{FreeCAD's node number: 'Face3'} from the groups FaceN of a FemMesh; one face for nodes on several."""
+    found = {}
+    for group in fem_mesh.Groups:
+        name = fem_mesh.getGroupName(group)
+        if re.match(r"Face[0-9]+$", name) and fem_mesh.getGroupElementType(group) == "Face":
+            for element in fem_mesh.getGroupElements(group):
+                found.update(dict.fromkeys(fem_mesh.getElementNodes(element), name))
+    return found
+
+
+def cad_face_of(fem_mesh, element, faces):
+    """The CAD face that most nodes of an element lie on, by cad_faces(); None when it is inside."""
+    touched = Counter(faces[node] for node in fem_mesh.getElementNodes(element) if node in faces)
+    return touched.most_common(1)[0][0] if touched else None
 
 
 class FaceTable:

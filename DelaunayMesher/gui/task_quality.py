@@ -4,12 +4,15 @@ Works on any FEM mesh of tetrahedra.  What our own report says about an element 
 on which CAD element it lies) is shown with it.
 """
 
+import os
+
 import FreeCAD
 import FreeCADGui
 import numpy as np
 from PySide import QtCore, QtGui
 
-from ..document.from_femmesh import FaceTable, tetrahedra
+from ..document.from_femmesh import FaceTable, cad_face_of, cad_faces, tetrahedra
+from ..report import write_report
 from .commands import is_our_mesh
 from .histogram import Histogram
 from .measures import MEASURES
@@ -47,6 +50,7 @@ class QualityPanel:
         self.mesh = tetrahedra(target.FemMesh)
         self.report = report_of(target)
         self.reasons = {item["tet"]: item for item in self.report.get("below_target", ())}
+        self.faces = cad_faces(target.FemMesh)
         self.table_of_faces = None
         self.overlay = Overlay(target.Document)
         self.was_visible = target.ViewObject.Visibility
@@ -61,6 +65,8 @@ class QualityPanel:
         self.worst_box.table.itemSelectionChanged.connect(self.show_chosen)
         self.cut_box.changed = self.show_cut
         self.plot_box.destroyed.connect(self.clean)
+        self.plot_box.export.clicked.connect(self.export)
+        self.plot_box.export.setVisible(bool(self.report))
 
     def getStandardButtons(self):
         close = QtGui.QDialogButtonBox.Close
@@ -86,11 +92,11 @@ class QualityPanel:
         self.show_cut()
 
     def remark(self, row):
-        """(CAD element, reason) of an element from our report; empty when there is nothing to say."""
+        """(CAD element or '', reason or '') of an element, from our report or from the groups of the mesh."""
         item = self.reasons.get(int(row))
-        if item is None:
-            return "", ""
-        return item.get("face") or "", tr(REASONS.get(item["reason"], item["reason"]))
+        if item is not None:
+            return item.get("face") or "", tr(REASONS.get(item["reason"], item["reason"]))
+        return cad_face_of(self.target.FemMesh, int(self.mesh.element[row]), self.faces) or "", ""
 
     def show_chosen(self):
         """Zoom to the chosen row's element and select the CAD element it lies on."""
@@ -134,6 +140,15 @@ class QualityPanel:
             kept &= self.measure.is_worse(self.values, threshold)
         return kept
 
+    def export(self):
+        """Save the report of our mesh as JSON."""
+        name = os.path.join(os.path.expanduser("~"), "%s.json" % self.target.Label)
+        path = QtGui.QFileDialog.getSaveFileName(
+            FreeCADGui.getMainWindow(), tr("Save the report"), name, "JSON (*.json)"
+        )[0]
+        if path:
+            write_report(path, self.report)
+
     def reject(self):
         FreeCADGui.Control.closeDialog()
         return True
@@ -168,9 +183,10 @@ class PlotBox(QtGui.QWidget):
         self.histogram = Histogram()
         self.figures = QtGui.QLabel()
         self.figures.setTextFormat(QtCore.Qt.RichText)
+        self.export = QtGui.QPushButton(tr("Export report ..."))
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(2, 2, 2, 2)
-        for widget in (self.measure, self.histogram, self.figures):
+        for widget in (self.measure, self.histogram, self.figures, self.export):
             layout.addWidget(widget)
 
     def show(self, values, measure, target):
@@ -214,7 +230,7 @@ class WorstBox(QtGui.QWidget):
         self.table.clearSelection()
         self.table.setRowCount(len(rows))
         for row, (element, value, unit, place, reason) in enumerate(rows):
-            texts = ("%d" % element, "%.4g%s" % (value, unit), place, reason)
+            texts = ("%d" % element, "%.4g%s" % (value, unit), place or tr("inside"), reason)
             for column, text in enumerate(texts):
                 self.table.setItem(row, column, QtGui.QTableWidgetItem(text))
         self.table.resizeColumnsToContents()

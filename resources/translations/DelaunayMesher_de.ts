@@ -292,6 +292,10 @@
       <translation>Schnitt längs Z</translation>
     </message>
     <message>
+      <source>Export report ...</source>
+      <translation>Bericht speichern ...</translation>
+    </message>
+    <message>
       <source>Worst elements</source>
       <translation>Schlechteste Elemente</translation>
     </message>
@@ -310,6 +314,10 @@
     <message>
       <source>%s elements shown</source>
       <translation>%s Elemente gezeigt</translation>
+    </message>
+    <message>
+      <source>Save the report</source>
+      <translation>Bericht speichern</translation>
     </message>
     <message>
       <source>no tetrahedra</source>
@@ -342,6 +350,10 @@
     <message>
       <source>Only above</source>
       <translation>Nur über</translation>
+    </message>
+    <message>
+      <source>inside</source>
+      <translation>innen</translation>
     </message>
     <message>
       <source>These objects refer to the mesh and would lose it:</source>

@@ -73,6 +73,9 @@ def quality_panel(target):
     panel.worst_box.table.selectRow(0)
     wait(0.3)
     assert panel.overlay.chosen.getNumChildren() > 0
+    places = {panel.worst_box.table.item(row, 2).text() for row in range(100)}
+    say("worst elements lie on", sorted(places))
+    assert places <= {"Face1", "Face2", "Face3", "inside"}
     drive.picture("worst")
 
     drive.view_all()

@@ -13,7 +13,8 @@ SETTINGS = """<?xml version="1.0" encoding="UTF-8" standalone="no" ?>
 <FCParameters><FCParamGroup Name="Root"><FCParamGroup Name="BaseApp"><FCParamGroup Name="Preferences">
 <FCParamGroup Name="General"><FCText Name="AutoloadModule">PartWorkbench</FCText>
 <FCText Name="Language">%s</FCText></FCParamGroup>
-<FCParamGroup Name="View"><FCBool Name="ShowNaviCube" Value="0"/></FCParamGroup>
+<FCParamGroup Name="View"><FCBool Name="Gradient" Value="0"/><FCBool Name="Simple" Value="1"/>
+<FCUInt Name="BackgroundColor" Value="4143380479"/></FCParamGroup>
 <FCParamGroup Name="Mod"><FCParamGroup Name="Start"><FCBool Name="ShowOnStartup" Value="0"/>
 </FCParamGroup></FCParamGroup>
 </FCParamGroup></FCParamGroup></FCParamGroup></FCParameters>
