@@ -17,7 +17,7 @@ from PySide import QtCore, QtGui  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 
 WIDTH = 1000
-COLOURS = 96
+COLOURS = 160
 
 
 def picture(name):
