@@ -25,9 +25,8 @@ def load():
             raise MeshError(
                 "extension",
                 "no_extension",
-                "the compiled part of DelaunayMesher is missing or was built for another Python (%s). Run 'bash "
-                "scripts/setup.sh' in the repository, or install a wheel with 'pip install DelaunayMesher'"
-                % error,
+                "the compiled part of DelaunayMesher is missing or was built for another Python (%s). "
+                "Run 'bash scripts/setup.sh' in the repository, or 'pip install DelaunayMesher'" % error,
             ) from None
     return _core
 
