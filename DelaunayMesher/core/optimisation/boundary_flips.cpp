@@ -86,7 +86,7 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
 bool Flipper::flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geometry) {
   Ring ring;
   if (!find_open_ring(tet, ia, ib, ring)) return false;
-  const int tets = ring.count - 1;
+  const int tets = std::min(ring.count, kMaxRing) - 1;
   double worst = 0;
   for (int i = 0; i < tets; ++i) worst = std::max(worst, mesh_.bad(ring.tet[i]));
   Plan plan;

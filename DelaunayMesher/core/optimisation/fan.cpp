@@ -10,93 +10,100 @@
 namespace dm {
 namespace {
 
-DM_INLINE double larger(double a, double b) { return a > b ? a : b; }
-DM_INLINE double smaller(double a, double b) { return a < b ? a : b; }
+constexpr float kThird = 1.0f / 3, kWeight = static_cast<float>(kBluntWeight);
+constexpr float kFlat = 0.99999f;  // cosine of a quarter of a degree
+
+DM_INLINE float larger(float a, float b) { return a > b ? a : b; }
+DM_INLINE float smaller(float a, float b) { return a < b ? a : b; }
 
 // Face normals (all outward or all inward) are cross products of the edges at the apex; the fourth is minus
 // their sum.  The cosine of a dihedral angle is minus that of the angle between two normals.
-DM_INLINE void extreme_cosines(const Fan& fan, const Vec3& p, double side, double* __restrict sharp,
-                               double* __restrict blunt) {
+DM_INLINE void extreme_cosines(const Fan& fan, const Vec3& apex, float side, float* __restrict sharp,
+                               float* __restrict blunt) {
   const auto& c = fan.corner;
-  for (int k = 0; k < fan.count; ++k) {
-    const double ux = c[0][k] - p.x, uy = c[1][k] - p.y, uz = c[2][k] - p.z;
-    const double vx = c[3][k] - p.x, vy = c[4][k] - p.y, vz = c[5][k] - p.z;
-    const double wx = c[6][k] - p.x, wy = c[7][k] - p.y, wz = c[8][k] - p.z;
-    const double ax = vy * wz - vz * wy, ay = vz * wx - vx * wz, az = vx * wy - vy * wx;
-    const double bx = wy * uz - wz * uy, by = wz * ux - wx * uz, bz = wx * uy - wy * ux;
-    const double gx = uy * vz - uz * vy, gy = uz * vx - ux * vz, gz = ux * vy - uy * vx;
-    const double volume = -side * (ax * ux + ay * uy + az * uz);
-    const double aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz;
-    const double gg = gx * gx + gy * gy + gz * gz;
-    const double ab = ax * bx + ay * by + az * bz, ag = ax * gx + ay * gy + az * gz;
-    const double bg = bx * gx + by * gy + bz * gz;
-    const double ad = aa + ab + ag, bd = bb + ab + bg,
-                 gd = gg + ag + bg;  // minus the products with the fourth
-    const double dd = ad + bd + gd;
-    const double la = 1 / std::sqrt(aa), lb = 1 / std::sqrt(bb), lg = 1 / std::sqrt(gg),
-                 ld = 1 / std::sqrt(dd);
-    const double c0 = -ab * la * lb, c1 = -ag * la * lg, c2 = -bg * lb * lg;
-    const double c3 = ad * la * ld, c4 = bd * lb * ld, c5 = gd * lg * ld;
-    const double high = larger(larger(larger(c0, c1), larger(c2, c3)), larger(c4, c5));
-    const double low = smaller(smaller(smaller(c0, c1), smaller(c2, c3)), smaller(c4, c5));
-    const bool valid = volume > 0 && high <= 1 && low >= -1;  // false for NaN
+  const Vec3 from = apex - fan.origin;
+  const float px = static_cast<float>(from.x), py = static_cast<float>(from.y),
+              pz = static_cast<float>(from.z);
+  const int count = fan.padded();
+  for (int k = 0; k < count; ++k) {
+    const float ux = c[0][k] - px, uy = c[1][k] - py, uz = c[2][k] - pz;
+    const float vx = c[3][k] - px, vy = c[4][k] - py, vz = c[5][k] - pz;
+    const float wx = c[6][k] - px, wy = c[7][k] - py, wz = c[8][k] - pz;
+    const float ax = vy * wz - vz * wy, ay = vz * wx - vx * wz, az = vx * wy - vy * wx;
+    const float bx = wy * uz - wz * uy, by = wz * ux - wx * uz, bz = wx * uy - wy * ux;
+    const float gx = uy * vz - uz * vy, gy = uz * vx - ux * vz, gz = ux * vy - uy * vx;
+    const float volume = -side * (ax * ux + ay * uy + az * uz);
+    const float aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz;
+    const float gg = gx * gx + gy * gy + gz * gz;
+    const float ab = ax * bx + ay * by + az * bz, ag = ax * gx + ay * gy + az * gz;
+    const float bg = bx * gx + by * gy + bz * gz;
+    const float ad = aa + ab + ag, bd = bb + ab + bg,
+                gd = gg + ag + bg;  // minus the products with the fourth
+    const float dd = ad + bd + gd;
+    const float la = 1.0f / std::sqrt(aa), lb = 1.0f / std::sqrt(bb), lg = 1.0f / std::sqrt(gg),
+                ld = 1.0f / std::sqrt(dd);
+    const float c0 = -ab * la * lb, c1 = -ag * la * lg, c2 = -bg * lb * lg;
+    const float c3 = ad * la * ld, c4 = bd * lb * ld, c5 = gd * lg * ld;
+    const float high = larger(larger(larger(c0, c1), larger(c2, c3)), larger(c4, c5));
+    const float low = smaller(smaller(smaller(c0, c1), smaller(c2, c3)), smaller(c4, c5));
+    const bool valid = volume > 0 && high <= kFlat && low >= -kFlat;  // false for NaN
     sharp[k] = valid ? high : 1;
     blunt[k] = valid ? low : -1;
   }
 }
 
-DM_INLINE void badness_of(int count, const double* __restrict sharp, const double* __restrict blunt,
-                          double* __restrict bad) {
+DM_INLINE void badness_of(int count, const float* __restrict sharp, const float* __restrict blunt,
+                          float* __restrict bad) {
   for (int k = 0; k < count; ++k) {
-    const double b = larger(sharp[k] - 1.0 / 3, kBluntWeight * (1.0 / 3 - blunt[k]));
-    bad[k] = blunt[k] > -1 ? b : kInverted;
+    const float b = larger(sharp[k] - kThird, kWeight * (kThird - blunt[k]));
+    bad[k] = blunt[k] > -1 ? b : static_cast<float>(kInverted);
   }
 }
 
-DM_INLINE void evaluate(const Fan& fan, const Vec3& apex, double side, double* bad) {
-  double sharp[Fan::kCapacity], blunt[Fan::kCapacity];
+DM_INLINE void evaluate(const Fan& fan, const Vec3& apex, float side, float* bad) {
+  float sharp[Fan::kCapacity], blunt[Fan::kCapacity];
   extreme_cosines(fan, apex, side, sharp, blunt);
-  badness_of(fan.count, sharp, blunt, bad);
+  badness_of(fan.padded(), sharp, blunt, bad);
 }
 
-// Four running values each, combined in a fixed order: the same for every vector width.
-DM_INLINE FanScore score(const Fan& fan, const Vec3& apex, bool soft, double* bad) {
-  alignas(32) double sharp[Fan::kCapacity], blunt[Fan::kCapacity], power[Fan::kCapacity];
+// Eight running values each, combined in a fixed order: the same for every vector width.
+DM_INLINE FanScore score(const Fan& fan, const Vec3& apex, bool soft, float* bad) {
+  alignas(32) float sharp[Fan::kCapacity], blunt[Fan::kCapacity], power[Fan::kCapacity];
   extreme_cosines(fan, apex, 1, sharp, blunt);
-  badness_of(fan.count, sharp, blunt, bad);
-  for (int k = 0; k < fan.count; ++k) {
-    const double p2 = bad[k] * bad[k], p4 = p2 * p2, p8 = p4 * p4;
+  badness_of(fan.padded(), sharp, blunt, bad);
+  for (int k = 0; k < fan.padded(); ++k) {
+    const float p2 = bad[k] * bad[k], p4 = p2 * p2, p8 = p4 * p4;
     power[k] = soft ? p2 : p8 * p8;
   }
-  for (int k = fan.count; k < ((fan.count + 3) & ~3); ++k) {  // padding that changes nothing
-    power[k] = 0;
-    sharp[k] = -1;
-    blunt[k] = 1;
-  }
-  double sum[4] = {0, 0, 0, 0}, high[4] = {-1, -1, -1, -1}, low[4] = {1, 1, 1, 1};
-  for (int k = 0; k < fan.count; k += 4)
-    for (int j = 0; j < 4; ++j) {
+  for (int k = fan.count; k < fan.padded(); ++k) power[k] = 0;
+  float sum[8] = {}, high[8], low[8];
+  for (int j = 0; j < 8; ++j) high[j] = -1, low[j] = 1;
+  for (int k = 0; k < fan.padded(); k += 8)
+    for (int j = 0; j < 8; ++j) {
       sum[j] += power[k + j];
       high[j] = larger(high[j], sharp[k + j]);
       low[j] = smaller(low[j], blunt[k + j]);
     }
-  return {(sum[0] + sum[1]) + (sum[2] + sum[3]),
-          {larger(larger(high[0], high[1]), larger(high[2], high[3])),
-           smaller(smaller(low[0], low[1]), smaller(low[2], low[3]))}};
+  FanScore result{sum[0], {high[0], low[0]}};
+  for (int j = 1; j < 8; ++j) {
+    result.sum += sum[j];
+    result.extremes.include({high[j], low[j]});
+  }
+  return result;
 }
 
 #ifdef DM_WIDE
-DM_WIDE void evaluate_wide(const Fan& fan, const Vec3& apex, double side, double* bad) {
+DM_WIDE void evaluate_wide(const Fan& fan, const Vec3& apex, float side, float* bad) {
   evaluate(fan, apex, side, bad);
 }
-DM_WIDE FanScore score_wide(const Fan& fan, const Vec3& apex, bool soft, double* bad) {
+DM_WIDE FanScore score_wide(const Fan& fan, const Vec3& apex, bool soft, float* bad) {
   return score(fan, apex, soft, bad);
 }
 #endif
 
 }  // namespace
 
-void fan_badness(const Fan& fan, const Vec3& apex, double side, double* bad) {
+void fan_badness(const Fan& fan, const Vec3& apex, float side, float* bad) {
 #ifdef DM_WIDE
   static const bool wide = __builtin_cpu_supports("avx2");
   if (wide) return evaluate_wide(fan, apex, side, bad);
@@ -104,7 +111,7 @@ void fan_badness(const Fan& fan, const Vec3& apex, double side, double* bad) {
   evaluate(fan, apex, side, bad);
 }
 
-FanScore fan_score(const Fan& fan, const Vec3& apex, bool soft, double* bad) {
+FanScore fan_score(const Fan& fan, const Vec3& apex, bool soft, float* bad) {
 #ifdef DM_WIDE
   static const bool wide = __builtin_cpu_supports("avx2");
   if (wide) return score_wide(fan, apex, soft, bad);

@@ -3,7 +3,8 @@
 namespace dm {
 namespace {
 
-constexpr double kGain = 1e-3;  // of the worst badness: less is not worth a change
+constexpr double kGain = 1e-3;       // of the worst badness: less is not worth a change
+constexpr double kBluntEdge = -0.1;  // cosine: edges with a smaller angle are hardly ever worth removing
 constexpr int kShortRing = 5;
 constexpr double kMeanGain = 0.02;  // of the sum
 constexpr double kMeanBad = 0.29;   // badness of an average element of an optimised mesh
@@ -40,12 +41,13 @@ bool Flipper::find_ring(Index start, int ia, int ib, int longest, Ring& ring) co
 // Best triangulation of the ring: returns its worst badness, or its sum relative to the average element.
 double Flipper::triangulate(const Ring& ring) {
   const int n = ring.count;
-  fan_.clear();
+  fan_.start(mesh_.point(ring.a));
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
       for (int k = j + 1; k < n; ++k)
         fan_.add(mesh_.point(ring.corner[i]), mesh_.point(ring.corner[j]), mesh_.point(ring.corner[k]));
-  double upper[Fan::kCapacity], lower[Fan::kCapacity];
+  fan_.close();
+  float upper[Fan::kCapacity], lower[Fan::kCapacity];
   fan_badness(fan_, mesh_.point(ring.b), 1, upper);
   fan_badness(fan_, mesh_.point(ring.a), -1, lower);
   const bool worst = goal_ == FlipGoal::worst;
@@ -182,7 +184,8 @@ bool Flipper::improve_blunt(Index tet, FlipGoal goal) {
   }
   Plan best;
   start(goal, best);
-  for (const int k : {first, second}) plan_edge_removal(tet, kEdge[k][0], kEdge[k][1], kShortRing, best);
+  for (const int k : {first, second})
+    if (cosines[k] < kBluntEdge) plan_edge_removal(tet, kEdge[k][0], kEdge[k][1], kShortRing, best);
   return apply(best);
 }
 

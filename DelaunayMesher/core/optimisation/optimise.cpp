@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSweeps = 3;         // over all points
 constexpr double kSharpFlip = 35;  // degrees: elements below it are tried in the first round of cheap flips
-constexpr double kMeanFlip = 45;   // in the others
+constexpr double kMeanFlip = 43;   // in the others
 constexpr int kWorstRounds = 8;    // over the elements below the target
 constexpr int kPollEvery = 128;
 

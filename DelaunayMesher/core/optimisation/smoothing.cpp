@@ -7,8 +7,8 @@ bool Smoother::load(Index v, bool soft) {
   if (mesh_.entity(v).dimension < 1 || mesh_.vertex_tet(v) < 0) return false;
   const auto star = mesh_.star(v);
   if (star.size() > Fan::kCapacity) return false;
-  fan_.clear();
   place_ = mesh_.point(v);
+  fan_.start(place_);
   double reach = 0;
   for (Index t : star) {
     const Tet& c = mesh_.tet(t);
@@ -18,6 +18,7 @@ bool Smoother::load(Index v, bool soft) {
     fan_.add(a, b, d);
     reach += distance(place_, a);
   }
+  fan_.close();
   size_ = reach / fan_.count;
   soft_ = soft;
   now_ = fan_score(fan_, place_, soft_, bad_.data());
@@ -25,8 +26,8 @@ bool Smoother::load(Index v, bool soft) {
 }
 
 Vec3 Smoother::gradient() const {
-  const double h = 1e-4 * size_;
-  double bad[Fan::kCapacity];
+  const double h = 1e-3 * size_;
+  float bad[Fan::kCapacity];
   Vec3 g;
   for (int i = 0; i < 3; ++i) {
     Vec3 q = place_;
@@ -86,15 +87,15 @@ bool Smoother::descend(Index v) {
   if (moved) {
     while (s < 0.2 && attempt(v, at(2 * s))) s *= 2;
   } else {
-    while (!moved && s > 0.01) moved = attempt(v, at(s *= 0.5));
+    while (!moved && s > 0.02) moved = attempt(v, at(s *= 0.5));
   }
-  stride_ = std::clamp(s, 0.01, 0.2);
+  stride_ = std::clamp(s, 0.02, 0.2);
   return moved;
 }
 
 bool Smoother::smooth(Index v, bool soft, int steps) {
   if (!load(v, soft)) return false;
-  stride_ = 0.08;
+  stride_ = 0.12;
   int done = 0;
   while (done < steps && descend(v)) ++done;
   if (done == 0) return false;

