@@ -14,7 +14,7 @@
 namespace dm {
 namespace {
 
-constexpr int kAttempts = 4;  // with more and more old curve points kept
+constexpr int kLastAttempt = 4;  // to sample the curves anew before all their old points are kept
 
 class SurfaceMesher {
  public:
@@ -30,33 +30,21 @@ class SurfaceMesher {
       if (attempt == 1) context_.begin("surfaces");
       const PatchSource source(plc_, curves_);
       const std::vector<Index> left = remesh_faces(source);
-      if (left.empty() || attempt == kAttempts) {
-        if (!left.empty()) fail(left[0]);
-        break;
-      }
+      if (left.empty()) break;
       curve_options.keep.resize(plc_.points.size(), 0);
-      keep_points(left, attempt > 1, curve_options.keep);
+      keep_points(left, attempt, curve_options.keep);
     }
     separate_faces();
     return assemble();
   }
 
  private:
-  [[noreturn]] void fail(Index point) const {
-    Index face = -1;
-    for (std::size_t t = 0; t < plc_.triangles.size() && face < 0; ++t)
-      for (Index p : plc_.triangles[t])
-        if (p == point) face = plc_.triangle_face[t];
-    throw Failure("surfaces", "boundary_curve",
-                  "the boundary of a face could not be given the wanted size; try a smaller size there",
-                  plc_.points[point], {2, face});
-  }
-
-  // Marks the points, or all points of their CAD edges, as staying.
-  void keep_points(const std::vector<Index>& left, bool whole_edges, std::vector<char>& keep) const {
+  // Marks old curve points as staying: the given ones, then all of their CAD edges, at last all there are,
+  // with which no face can be in difficulty.
+  void keep_points(const std::vector<Index>& left, int attempt, std::vector<char>& keep) const {
     for (Index p : left) keep[p] = 1;
-    if (!whole_edges) return;
-    std::vector<char> edges(plc_.edge_count, 0);
+    if (attempt == 1) return;
+    std::vector<char> edges(plc_.edge_count, attempt >= kLastAttempt);
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)
       if (keep[plc_.segments[s][0]] || keep[plc_.segments[s][1]]) edges[plc_.segment_edge[s]] = 1;
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)

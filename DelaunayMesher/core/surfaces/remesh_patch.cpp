@@ -11,6 +11,8 @@ namespace {
 // Flips keep normals within 32 degrees of the surface's: where the triangles do not yet resolve a bend, being
 // Delaunay would otherwise mean edges across its inside.
 constexpr double kAligned = 0.85;
+constexpr double kAlignedShort = 0.5;  // ... and within 60 where the new edge is no longer than
+constexpr double kShort = 2;           // this many wanted lengths
 constexpr double kDegenerate = 1e-10;  // area over the square of the longest edge
 constexpr double kFlipMargin = 1e-6;   // keeps rounding from flipping back and forth
 
@@ -141,7 +143,7 @@ bool PatchRemesher::can_flip(Index e) const {
   const Index a = patch_.origin(e), b = patch_.target(e), c = patch_.apex(e), d = patch_.apex(m);
   if (c == d) return false;
   const double after = std::min(alignment(c, a, d), alignment(d, b, c));
-  if (after < kAligned) {
+  if (after < (edge_ratio(c, d) < kShort ? kAlignedShort : kAligned)) {
     const double before = std::min(alignment(c, a, b), alignment(d, b, a));
     if (after < before) return false;
   }
