@@ -8,6 +8,7 @@ microseconds per tetrahedron.
 
 import numpy as np
 
+AT_ONCE = 10000  # elements that a group gets in one call
 TETRAHEDRON = {4: [1, 0, 2, 3], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 
 
@@ -82,8 +83,10 @@ def element_groups(mesh, members, aliases):
 
 
 def add_group(target, name, kind, numbers):
-    """One group of element (or node) numbers."""
-    target.addGroupElements(target.addGroup(name, kind), numbers.tolist())
+    """One group of element (or node) numbers; in pieces, as FreeCAD's call stops other threads."""
+    group = target.addGroup(name, kind)
+    for start in range(0, len(numbers), AT_ONCE):
+        target.addGroupElements(group, numbers[start : start + AT_ONCE].tolist())
 
 
 def add_named_group(target, name, elements, collected, mesh):

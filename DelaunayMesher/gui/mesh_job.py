@@ -59,8 +59,9 @@ class MeshJob:
             taken = time.monotonic() - start
             mesh.seconds = {**mesh.seconds, "write": taken}
             mesh.total_seconds += taken
+            self.proceed("quality", 0.0)
             mesh.quality  # noqa: B018  computed here, not later in the thread of the window
-            self.proceed("write", 0.9)
+            self.proceed("quality", 1.0)
             self.mesh, self.filled = mesh, filled
         except MeshError as error:
             self.error = error

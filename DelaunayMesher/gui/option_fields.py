@@ -14,7 +14,7 @@ from .texts import tr
 
 UNITS = {"length": "mm", "angle": "deg"}
 LARGEST = 1e9
-NARROW = 76  # pixels that a field needs at least: FreeCAD's panels are narrow at first
+NARROW = 96  # pixels that a field needs at least: FreeCAD's panels are narrow at first
 CHOICE_LABELS = {
     ("order", 1): "First (4 nodes)",
     ("order", 2): "Second (10 nodes)",

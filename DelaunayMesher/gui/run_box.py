@@ -18,6 +18,7 @@ STAGES = {
     "order": "Second order",
     "certificate": "Certificate",
     "write": "FEM mesh",
+    "quality": "Quality figures",
 }
 BAD, WARN, GOOD = "#c0392b", "#b9770e", "#1e8449"
 

@@ -20,6 +20,7 @@ from .size_preview import SizePreview
 from .texts import icon, tr
 
 POLL_MILLISECONDS = 50
+FRAME_WIDTH = 70  # pixels of FreeCAD's frames and scroll bar beside our boxes
 
 
 class MeshPanel:
@@ -42,6 +43,7 @@ class MeshPanel:
         self.timer.setInterval(POLL_MILLISECONDS)
         self.timer.timeout.connect(self.poll)
         self.run_box.destroyed.connect(self.cancel)
+        QtCore.QTimer.singleShot(0, lambda: widen_dock(self.options_box))
 
     def getStandardButtons(self):
         close = QtGui.QDialogButtonBox.Close
@@ -216,6 +218,16 @@ def differs(shown, stored):
     if isinstance(shown, float) and isinstance(stored, float):
         return abs(shown - stored) > 1e-9 * max(abs(shown), abs(stored))
     return shown != stored
+
+
+def widen_dock(box):
+    """Make FreeCAD's side panel wide enough for a box that has just been shown there."""
+    dock = box.parentWidget()
+    while dock is not None and not isinstance(dock, QtGui.QDockWidget):
+        dock = dock.parentWidget()
+    wanted = box.minimumSizeHint().width() + FRAME_WIDTH
+    if dock is not None and not dock.isFloating() and dock.width() < wanted:
+        FreeCADGui.getMainWindow().resizeDocks([dock], [wanted], QtCore.Qt.Horizontal)
 
 
 def show_mesh_instead_of_part(target):
