@@ -9,6 +9,8 @@ namespace dm {
 namespace {
 
 constexpr int kSweeps = 3;         // over all points
+constexpr int kMostSweeps = 5;     // while the mean is below
+constexpr double kMeanAngle = 51;  // degrees
 constexpr double kSharpFlip = 35;  // degrees: elements below it are tried in the first round of cheap flips
 constexpr double kMeanFlip = 43;   // in the others
 constexpr int kWorstRounds = 8;    // over the elements below the target
@@ -22,7 +24,7 @@ class Optimiser {
   }
 
   OptimiseReport run() {
-    for (int i = 0; i < kSweeps; ++i) {
+    for (int i = 0; i < kSweeps || (i < kMostSweeps && mean_angle() < kMeanAngle); ++i) {
       i == 0 ? flip(kSharpFlip, FlipGoal::worst) : flip(kMeanFlip, FlipGoal::mean);
       sweep();
     }
@@ -41,13 +43,21 @@ class Optimiser {
       if (!mesh_.removed(t)) all.include(mesh_.cosines(mesh_.tet(t)));
     return all;
   }
+  // Of the smallest angles of the elements, degrees.
+  double mean_angle() const {
+    double sum = 0;
+    Index count = 0;
+    for (Index t = 0; t < mesh_.slot_count(); ++t)
+      if (!mesh_.removed(t)) sum += std::acos(mesh_.cosines(mesh_.tet(t)).sharp), ++count;
+    return sum / count * 180 / std::numbers::pi;
+  }
   static void set_range(const AngleCosines& cosines, double& min, double& max) {
     min = std::acos(cosines.sharp) * 180 / std::numbers::pi;
     max = std::acos(cosines.blunt) * 180 / std::numbers::pi;
   }
   // Sweeps and flips make up nine tenths of the work.
   void poll(int part, double fraction) {
-    if (++polls_ % kPollEvery == 0) context_.poll((part + fraction) * 0.9 / (2 * kSweeps));
+    if (++polls_ % kPollEvery == 0) context_.poll(std::min(0.9, (part + fraction) * 0.9 / (2 * kSweeps)));
   }
 
   void flip(double below, FlipGoal goal) {

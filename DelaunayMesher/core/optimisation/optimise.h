@@ -1,8 +1,8 @@
 // The optimisation stage: flips and smoothing, worst elements with all means, all elements with cheap ones.
 //
-// Idea: a refined Delaunay mesh has no slivers left, so three rounds of cheap flips of its sharp elements and
-// one smoothing step of every point raise the average angle, and only some per mille of the elements need the
-// full set of operations (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007).
+// Idea: a refined Delaunay mesh has no slivers left, so three to five rounds of cheap flips of its sharp
+// elements and one smoothing step of every point raise the average angle, and only some per mille of the
+// elements need the full set of operations (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007).
 // Precondition: check_volume_mesh(mesh).  Postcondition: the same; the smallest angle is no smaller and the
 // largest no larger than before, unless within 30..136 degrees; every boundary point lies on its CAD element;
 // no interior triangle has its corners on one CAD face that did not have them before.
