@@ -79,6 +79,7 @@ void compare(const char* name, const std::vector<Vec3>& points, int threads, int
     std::printf("  CGAL %10zu tets %7.3f s %6.2f Mtet/s  ratio %.2f", cgal.tets, cgal.seconds,
                 cgal.tets / cgal.seconds * 1e-6, cgal.seconds / own.seconds);
   std::printf("\n");
+  std::fflush(stdout);
 }
 
 }  // namespace
