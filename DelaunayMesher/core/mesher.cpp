@@ -39,6 +39,7 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   const auto add = [&](const char* name, double value) { s.emplace_back(name, value); };
   add("boundary_missing_at_start", recovery.missing_at_start);
   add("boundary_flips", recovery.flips);
+  add("boundary_replaced", recovery.replaced);
   add("boundary_splits", recovery.segment_splits + recovery.triangle_splits);
   add("refinement_sites", static_cast<double>(refinement.sites));
   add("refinement_tries", static_cast<double>(refinement.tries));
@@ -61,7 +62,9 @@ MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOption
   const Geometry geometry(plc, std::move(records));
   clock.stop("plc");
 
+  context.begin("sizing");
   const SizeField size(plc, geometry, options.size, context);
+  result.warnings = size.warnings();
   refuse_if_too_many(size, options.max_elements);
   result.statistics.emplace_back("predicted_tetrahedra", size.predicted_tetrahedra());
   clock.stop("sizing");

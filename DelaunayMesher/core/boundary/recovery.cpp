@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "boundary/partition.h"
 
 namespace dm {
 
@@ -12,8 +13,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kMaxRounds = 60;
+constexpr int kWorseRounds =
+    2;  // rounds with more missing triangles than ever before: splitting does not help
 // Splitting floors, relative to the wanted edge length: below them a constraint counts as unrecoverable.
-constexpr double kSegmentFloor = 0.01, kTriangleFloor = 0.01;
+constexpr double kSegmentFloor = 0.3, kTriangleFloor = 0.3;
+// Least distance of a new point from all others, relative to the same: what makes the splitting end.
+constexpr double kSpacing = 0.15;
 
 class Recovery {
  public:
@@ -26,10 +31,15 @@ class Recovery {
         context_(context),
         report_(report) {}
 
-  void run() {
+  // Returns the triangles that could not be recovered.
+  std::vector<Index> run() {
     label_present();
     report_.missing_at_start = static_cast<Index>(missing_.size());
-    for (int round = 0; round < kMaxRounds && !missing_.empty(); ++round) {
+    std::size_t fewest = missing_.size();
+    for (int round = 0, worse = 0; round < kMaxRounds && !missing_.empty(); ++round) {
+      worse = missing_.size() > fewest ? worse + 1 : 0;
+      fewest = std::min(fewest, missing_.size());
+      if (worse > kWorseRounds) break;
       context_.poll(1 - 1.0 / (round + 2));
       std::vector<Index> work;
       work.swap(missing_);
@@ -45,8 +55,10 @@ class Recovery {
       missing_.insert(missing_.end(), stuck_.begin(), stuck_.end());
     }
     missing_.insert(missing_.end(), stuck_.begin(), stuck_.end());
+    std::vector<Index> left;
     for (const Index t : missing_)
-      if (is_missing(t)) fail(t);
+      if (is_missing(t)) left.push_back(t);
+    return left;
   }
 
  private:
@@ -178,10 +190,35 @@ class Recovery {
     if (obtuse && complex_.is_segment(u, v)) return split_segment(u, v);
     Random random(context_.seed, q[0], q[1], q[2], 2);
     const Index face = complex_.face(t);
-    if (obtuse) return split_edge(u, v, face, random);
     Vec3 p = circle.centre + (0.2 * r) * random.in_ball();
-    if (!well_inside(p, q, 0.15 * r)) p = 0.7 * middle + 0.3 * circle.centre;
+    const double w = 0.5 + 0.1 * random.symmetric();
+    if (obtuse)
+      p = (1 - w) * points()[u] + w * points()[v];
+    else if (!well_inside(p, q, 0.15 * r))
+      p = 0.7 * middle + 0.3 * circle.centre;
     p = geometry_.project_to_face(face, p);
+    const Segment near = encroached_segment(q, p);
+    if (near[0] >= 0) return split_segment(near[0], near[1]);
+    return obtuse ? split_edge(u, v, face, p) : split_inside(t, p);
+  }
+
+  // A segment round the triangle whose diametral ball holds p: it is split instead (Ruppert 1995), or points
+  // would pile up beside it.
+  Segment encroached_segment(const Triangle& q, const Vec3& p) const {
+    for (const Index corner : q)
+      for (const Index t : complex_.triangles_at(corner)) {
+        const Triangle& near = complex_.corners(t);
+        for (int i = 0; i < 3; ++i) {
+          const Index a = near[i], b = near[(i + 1) % 3];
+          if (dot(points()[a] - p, points()[b] - p) < 0 && complex_.is_segment(a, b)) return {a, b};
+        }
+      }
+    return {-1, -1};
+  }
+
+  bool split_inside(Index t, const Vec3& p) {
+    const Triangle q = complex_.corners(t);
+    const Index face = complex_.face(t);
     const Index w = insert(p, q[0]);
     if (w < 0) return false;
     complex_.set_entity(w, {2, face});
@@ -193,9 +230,7 @@ class Recovery {
     return true;
   }
 
-  bool split_edge(Index a, Index b, Index face, Random& random) {
-    const double w = 0.5 + 0.1 * random.symmetric();
-    const Vec3 p = geometry_.project_to_face(face, (1 - w) * points()[a] + w * points()[b]);
+  bool split_edge(Index a, Index b, Index face, const Vec3& p) {
     BoundaryComplex::Fan fan;
     const int n = complex_.triangles_at(a, b, fan);
     const Index v = insert(p, a);
@@ -258,7 +293,7 @@ class Recovery {
     const Index start = tets_.locate(p, tets_.vertex_tet(near));
     if (start < 0) return -1;
     tets_.find_cavity(p, start, false, cavity_);
-    if (cavity_.border.empty()) return -1;
+    if (cavity_.border.empty() || nearest_distance(p) < kSpacing * edge_size(p)) return -1;
     for (const Index tet : cavity_.tets) {
       if (!tets_.marks(tet) || tets_.is_ghost(tet)) continue;
       const Tet& v = tets_.corners(tet);
@@ -279,14 +314,13 @@ class Recovery {
     return v;
   }
 
-  [[noreturn]] void fail(Index t) const {
-    const Triangle& q = complex_.corners(t);
-    const Vec3 place = (1.0 / 3) * (points()[q[0]] + points()[q[1]] + points()[q[2]]);
-    throw Failure(
-        "boundary", "unrecovered",
-        "the boundary cannot be represented here: the triangulated faces touch or cross each other; "
-        "try a smaller size",
-        place, {2, complex_.face(t)});
+  // Distance from p to the nearest vertex of its cavity, which is its nearest vertex at all.
+  double nearest_distance(const Vec3& p) const {
+    double nearest2 = HUGE_VAL;
+    for (const Index tet : cavity_.tets)
+      for (const Index v : tets_.corners(tet))
+        if (v != Triangulation::ghost) nearest2 = std::min(nearest2, norm2(points()[v] - p));
+    return std::sqrt(nearest2);
   }
 
   Triangulation& tets_;
@@ -335,15 +369,12 @@ bool Recovery::tetrahedron_at_edge(Index a, Index b) const {
          }) >= 0;
 }
 
-void check_region(const LabelledTriangulation& mesh, Index tet, int i, Index solid) {
+// Does the label of face i of tet say that the tetrahedron belongs to its solid?
+bool label_agrees(const LabelledTriangulation& mesh, Index tet, int i) {
   const Tet& v = mesh.tets.corners(tet);
   const Index t = mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-  const Index claimed = mesh.boundary.solids(t)[corner_in_front(v, i, mesh.boundary.corners(t)) ? 1 : 0];
-  if (claimed == solid) return;
-  const Vec3 place = mesh.tets.point(mesh.boundary.corners(t)[0]);
-  throw Failure("boundary", "leak",
-                "the two sides of the boundary are not separated here: the faces overlap or leave a gap",
-                place, {2, mesh.boundary.face(t)});
+  return mesh.boundary.solids(t)[corner_in_front(v, i, mesh.boundary.corners(t)) ? 1 : 0] ==
+         mesh.tets.tag(tet);
 }
 
 }  // namespace
@@ -358,8 +389,8 @@ LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& pl
     if (mesh.tets.vertex_tet(v) < 0)
       throw Failure("boundary", "repeated_point", "two boundary points coincide", surface.points[v],
                     surface.point_entity[v]);
-  Recovery(mesh, geometry, size, context, report).run();
-  tag_solids(mesh);
+  const std::vector<Index> missing = Recovery(mesh, geometry, size, context, report).run();
+  if (!missing.empty() || !tag_solids(mesh)) report.replaced = partition_solids(mesh, missing);
   return mesh;
 }
 
@@ -392,7 +423,7 @@ bool corner_in_front(const Tet& v, int i, const Triangle& t) {
   return false;
 }
 
-void tag_solids(LabelledTriangulation& mesh) {
+bool tag_solids(LabelledTriangulation& mesh) {
   Triangulation& tets = mesh.tets;
   constexpr std::uint16_t unknown = 0xffff;
   for (Index t = 0; t < tets.slot_count(); ++t)
@@ -426,8 +457,9 @@ void tag_solids(LabelledTriangulation& mesh) {
   for (Index t = 0; t < tets.slot_count(); ++t) {
     if (tets.is_free(t) || tets.is_ghost(t)) continue;
     for (int i = 0; i < 4; ++i)
-      if (tets.marked(t, i)) check_region(mesh, t, i, tets.tag(t));
+      if (tets.marked(t, i) && !label_agrees(mesh, t, i)) return false;
   }
+  return true;
 }
 
 void check_boundary(const LabelledTriangulation& mesh) {
@@ -450,7 +482,9 @@ void check_boundary(const LabelledTriangulation& mesh) {
       const Tet& v = tets.corners(t);
       if (mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]) < 0)
         throw Failure("boundary", "check", "a marked face carries no label", tets.point(v[(i + 1) & 3]));
-      if (!tets.is_ghost(t)) check_region(mesh, t, i, tets.tag(t));
+      if (!tets.is_ghost(t) && !label_agrees(mesh, t, i))
+        throw Failure("boundary", "check", "a tetrahedron lies in another solid than its label says",
+                      tets.point(v[(i + 1) & 3]));
     }
   }
   for (Index t = 0; t < mesh.boundary.slot_count(); ++t) alive += mesh.boundary.alive(t);

@@ -7,7 +7,8 @@
 // Postcondition (check_boundary): every labelled triangle is a face of the triangulation and marked on both
 // sides, every tetrahedron's tag is its solid (0 = outside), and tags change exactly at marked faces.
 // Cost: one pass over the tetrahedra, then work proportional to what is missing.
-// Limits: splitting stops at a floor relative to the size; what is then missing is reported by face.
+// Limits: splitting stops at a floor relative to the size; what is then missing is taken from the tetrahedra
+// (boundary/partition.h) and reported.
 #pragma once
 
 #include "base/context.h"
@@ -25,9 +26,10 @@ struct LabelledTriangulation {
 
 struct RecoveryReport {
   Index missing_at_start = 0, flips = 0, segment_splits = 0, triangle_splits = 0;
+  Index replaced = 0;  // boundary triangles taken from the tetrahedra: the last resort
 };
 
-// Throws Failure("boundary", "unrecovered" | "leak", ...).
+// Throws Failure("boundary", "repeated_point" | "leak", ...).
 LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
                                        const SizeField& size, Context& context, RecoveryReport& report);
 
@@ -40,8 +42,9 @@ void set_marked_both(Triangulation& tets, Face f, bool on);
 // Does corner i of tet lie in front of (right-hand normal) its opposite face as `t` orders the corners?
 bool corner_in_front(const Tet& tet, int i, const Triangle& t);
 
-// Gives every tetrahedron the solid it lies in, by flooding from labelled faces.  Throws "leak".
-void tag_solids(LabelledTriangulation& mesh);
+// Gives every tetrahedron the solid it lies in, by flooding from labelled faces.  False when the two sides of
+// the boundary are not separated.
+bool tag_solids(LabelledTriangulation& mesh);
 
 // Every invariant of the postcondition; throws Failure("boundary", ...).
 void check_boundary(const LabelledTriangulation& mesh);
