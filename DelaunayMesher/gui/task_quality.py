@@ -35,14 +35,20 @@ def open_panel(target):
     """Show the panel of a mesh object, unless another panel is open."""
     from .start_mesh import panel_is_open
 
-    if not panel_is_open():
-        FreeCADGui.Control.showDialog(QualityPanel(target))
+    if panel_is_open():
+        return
+    QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+    try:
+        panel = QualityPanel(target)
+    finally:
+        QtGui.QApplication.restoreOverrideCursor()
+    FreeCADGui.Control.showDialog(panel)
 
 
 class QualityPanel:
     """What FreeCAD's task dialog wants, and what the widgets do."""
 
-    current = None  # the one that was opened last
+    current = None  # the one that is open
 
     def __init__(self, target):
         QualityPanel.current = self
@@ -154,7 +160,8 @@ class QualityPanel:
         return True
 
     def clean(self, *_):
-        """The panel is gone, however it was closed: the view is as it was before."""
+        """The panel is gone, however it was closed: the view is as it was before, the arrays are let go."""
+        QualityPanel.current = None
         try:
             self.overlay.remove()
             self.target.ViewObject.Visibility = self.was_visible

@@ -160,6 +160,10 @@
       <translation>FEM-Netz</translation>
     </message>
     <message>
+      <source>Quality figures</source>
+      <translation>Qualitätswerte</translation>
+    </message>
+    <message>
       <source>Run</source>
       <translation>Lauf</translation>
     </message>

@@ -14,6 +14,7 @@ pytestmark = [
     pytest.mark.long,
     pytest.mark.gui,
     pytest.mark.skipif(not shutil.which("xvfb-run"), reason="xvfb is not installed"),
+    pytest.mark.skipif(not shutil.which("ccx"), reason="CalculiX is not installed"),
     pytest.mark.skipif(not window.freecad(), reason="FreeCAD's window is not installed"),
 ]
 
