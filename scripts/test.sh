@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, then runs the C++ and the Python tests; the long ones too with --long.
+# Sets up, then runs the C++ and the Python tests; with --long the long ones after them.
 # Other arguments go to pytest: bash scripts/test.sh tests/test_options.py -x
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -12,9 +12,10 @@ done
 
 bash scripts/setup.sh all
 ctest --test-dir build/release --output-on-failure --no-tests=error -j "$(nproc)"
+/usr/bin/python3 -m pytest "${ARGUMENTS[@]}"
+
 if [ $LONG = yes ]; then
   # doctest leaves out test cases marked skip() unless told otherwise
   for program in build/release/test_*; do [ -x "$program" ] && "$program" --no-skip; done
-  ARGUMENTS+=(-m "long or not long")
+  /usr/bin/python3 -m pytest -m long "${ARGUMENTS[@]}"
 fi
-/usr/bin/python3 -m pytest "${ARGUMENTS[@]}"

@@ -1,5 +1,5 @@
-"""What every mesh of a sound part must be, checked on the arrays that a user gets: closed, positive, as large as
-the part, with good angles and edges of the wanted length, Delaunay, and the same for the same seed.
+"""What every mesh of a sound part must be, checked on the arrays that a user gets: closed, positive, as
+large as the part, with good angles and edges of the wanted length, Delaunay, and the same for the same seed.
 """
 
 import functools
