@@ -115,7 +115,13 @@ def selected_part():
     items = selected_objects()
     if len(items) != 1 or items[0].isDerivedFrom("Fem::FemMeshObject"):
         return None
-    return items[0] if is_part(items[0]) else None
+    return body_of(items[0]) if is_part(items[0]) else None
+
+
+def body_of(item):
+    """The body of a PartDesign feature (a click in the view selects the feature); else the item itself."""
+    parent = item.getParentGeoFeatureGroup() if hasattr(item, "getParentGeoFeatureGroup") else None
+    return parent if parent is not None and parent.isDerivedFrom("PartDesign::Body") else item
 
 
 def is_part(item):

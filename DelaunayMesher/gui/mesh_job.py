@@ -10,11 +10,30 @@ import time
 import traceback
 
 import FreeCAD
+from PySide import QtCore
 
 from ..document import mesh_object
 from ..document.femmesh import fem_mesh
 from ..errors import MeshCancelled, MeshError
 from ..progress import Progress
+
+LONGEST_STOP = 5.0  # seconds that the end of FreeCAD waits for a thread
+unfinished = []
+
+
+def remember(job):
+    """Take care that FreeCAD ends only when the job's thread has: it must not outlive Python."""
+    if not unfinished:
+        QtCore.QCoreApplication.instance().aboutToQuit.connect(stop_all)
+    unfinished[:] = [other for other in unfinished if not other.finished] + [job]
+
+
+def stop_all():
+    """Cancel what runs and wait for it."""
+    for job in unfinished:
+        job.cancel()
+    for job in unfinished:
+        job.thread.join(LONGEST_STOP)
 
 
 class MeshJob:
@@ -34,6 +53,7 @@ class MeshJob:
     def start(self):
         self.begin = time.monotonic()
         self.thread.start()
+        remember(self)
 
     def cancel(self):
         """Ask the thread to stop; it does within some ten milliseconds of the core's work."""
@@ -93,4 +113,5 @@ class MeshJob:
         and mesh would no longer belong together.
         """
         mesh_object.store(target, self.mesh, self.filled)
+        self.mesh = self.filled = None
         target.recompute()

@@ -2,7 +2,7 @@
 
 import FreeCADGui
 
-from .commands import is_our_mesh
+from .commands import body_of, is_our_mesh
 from .start_mesh import panel_is_open, show_error
 from .texts import tr
 
@@ -14,18 +14,21 @@ def refine(selection):
     if panel_is_open():
         return
     chosen = [item for item in selection if item.HasSubObjects and not is_our_mesh(item.Object)]
-    meshes = [mesh for item in chosen for mesh in meshes_of(item.Object)]
     if len(chosen) != 1:
         show_error(tr("Select faces, edges or vertices of one part."))
         return
+    part = chosen[0].Object
+    meshes = meshes_of(part) or meshes_of(body_of(part))
     if not meshes:
         show_error(tr("This part has no mesh object yet. Use 'Mesh this solid' first."))
         return
-    create(meshes[0], chosen[0].Object, chosen[0].SubElementNames)
+    # The last feature of a body has the body's elements under the same names.
+    meshed = meshes[0].Shape
+    create(meshes[0], meshed if getattr(meshed, "Tip", None) == part else part, chosen[0].SubElementNames)
 
 
 def meshes_of(part):
-    """The mesh objects of ours that mesh this part (or a body or link that shows it)."""
+    """The mesh objects of ours that mesh this object."""
     return [item for item in part.Document.Objects if is_our_mesh(item) and item.Shape == part]
 
 

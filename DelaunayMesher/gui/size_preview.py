@@ -11,6 +11,7 @@ from ..document import preview as computation
 from ..document.estimate import two_digits
 from ..errors import MeshError
 from .colours import SIZES
+from .mesh_job import remember
 from .overlay import Overlay
 from .run_box import number
 from .texts import tr
@@ -27,6 +28,10 @@ class PreviewJob:
         self.result = self.error = None
         self.thread = threading.Thread(target=self.run, name="DelaunayMesher preview", daemon=True)
         self.thread.start()
+        remember(self)
+
+    def cancel(self):
+        """The size field cannot be stopped; it takes a second or two."""
 
     def run(self):
         try:

@@ -221,13 +221,15 @@ def differs(shown, stored):
 
 
 def widen_dock(box):
-    """Make FreeCAD's side panel wide enough for a box that has just been shown there."""
-    dock = box.parentWidget()
-    while dock is not None and not isinstance(dock, QtGui.QDockWidget):
-        dock = dock.parentWidget()
+    """Make FreeCAD's side panel wide enough for a box that has just been shown there.
+
+    Not by box.parentWidget(): PySide takes our widgets for deleted once such a chain of parents is gone.
+    """
+    window = FreeCADGui.getMainWindow()
     wanted = box.minimumSizeHint().width() + FRAME_WIDTH
-    if dock is not None and not dock.isFloating() and dock.width() < wanted:
-        FreeCADGui.getMainWindow().resizeDocks([dock], [wanted], QtCore.Qt.Horizontal)
+    for dock in window.findChildren(QtGui.QDockWidget):
+        if dock.isAncestorOf(box) and not dock.isFloating() and dock.width() < wanted:
+            window.resizeDocks([dock], [wanted], QtCore.Qt.Horizontal)
 
 
 def show_mesh_instead_of_part(target):

@@ -102,8 +102,15 @@ def body_with_box():
     panel.run_box.button.click()
     wait_until(lambda: not panel.running)
     say("body:", panel.target.Summary)
-    assert panel.target.FemMesh.VolumeCount > 1000
+    assert panel.target.FemMesh.VolumeCount > 1000 and panel.target.Shape == body
     panel.reject()
+    wait(0.2)
+    drive.select(box, "Face1", "Face2")  # a click in the view selects the feature, not the body
+    FreeCADGui.runCommand("DelaunayMesher_RefineFaces")
+    wait(0.3)
+    refinement = (panel.target.MeshRegionList or panel.target.MeshRefinementList)[0]
+    assert refinement.References[0][0] == body, refinement.References
+    FreeCADGui.ActiveDocument.resetEdit()
     wait(0.2)
 
 

@@ -1,5 +1,6 @@
 """In FreeCAD's window: start is quick, the preferences page opens, a missing extension is explained."""
 
+import gc
 import os
 import sys
 import time
@@ -86,6 +87,23 @@ def nothing_to_mesh():
     panel.reject()
 
 
+def narrow_panel():
+    """The panel makes room for itself in FreeCAD's narrow side panel, and its fields live on."""
+    drive.arrange(200)
+    document = FreeCAD.newDocument("Narrow")
+    box = document.addObject("Part::Box", "Box")
+    document.recompute()
+    drive.select(box)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    for _ in range(5):
+        wait(0.1)
+        gc.collect()
+    panel = drive.panel()
+    assert panel.options_box.width() >= panel.options_box.minimumSizeHint().width()
+    assert panel.options_box.fields["max_size"].value() > 0
+    assert panel.reject()
+
+
 def preferences_dialog():
     """Our page is in FreeCAD's dialog and can be drawn."""
 
@@ -107,6 +125,7 @@ def main():
     wait(0.3)
     missing_extension()
     nothing_to_mesh()
+    narrow_panel()
     preferences_dialog()
 
 

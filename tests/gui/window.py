@@ -6,6 +6,7 @@ so a script ends with a line '... OK' that is looked for.
 
 import os
 import shutil
+import signal
 import subprocess
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -52,16 +53,20 @@ def run_in_window(script, home, output, seconds=300, language="English"):
     for name in ("XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
         environment.pop(name, None)
     command = ["xvfb-run", "-a", "-s", "-screen 0 1440x1000x24", freecad(), script]
-    done = subprocess.run(
+    process = subprocess.Popen(
         command,
         env=environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        timeout=seconds,
-        check=False,
+        start_new_session=True,
     )
-    printed = done.stdout.decode("utf-8", "replace")
+    try:
+        printed = process.communicate(timeout=seconds)[0].decode("utf-8", "replace")
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)  # xvfb-run, its display and FreeCAD
+        printed = process.communicate()[0].decode("utf-8", "replace")
+        printed += "\nended after %g s\n" % seconds
     log = os.path.join(str(output), "log.txt")
     if os.path.exists(log):
         with open(log, encoding="utf-8") as file:
