@@ -76,6 +76,16 @@ def test_closed_and_positive(name, scale, optimise):
     assert {edge for edge, faces in faces_at.items() if len(faces) > 1} <= on_edges <= set(faces_at)
 
 
+def volume_of(shape):
+    """The part's volume and how much it may be wrong, in mm^3.  OCC's own is 0.7 % off for the loft."""
+    if all(face.Surface.TypeId != "Part::GeomBSplineSurface" for face in shape.Faces):
+        return shape.Volume, 1e-7 * shape.Volume
+    deflection = 0.003
+    points, triangles = shape.copy().tessellate(deflection)
+    a, b, c = np.array([tuple(point) for point in points])[np.array(triangles).T]
+    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6, deflection * shape.Area
+
+
 @every_part
 @both_sizes
 @optimised_or_not
@@ -91,9 +101,9 @@ def test_volume_is_right_but_for_the_facets(name, scale, optimise):
         tabled = plc.as_dict(), plc.geometry, 2, face
         away = [np.linalg.norm(extension.load().project(*tabled, m) - m, axis=1) for m in middles]
         bound += (areas[chosen] * np.max(away, axis=0)).sum()
-    missing = abs(shape.Volume - quality.volumes(mesh.points, mesh.tets).sum())
-    assert missing <= bound + 1e-7 * shape.Volume  # OCC's own volumes are good to about 1e-8
-    assert bound < 0.06 * shape.Volume  # 12 elements per circle
+    volume, doubt = volume_of(shape)
+    assert abs(volume - quality.volumes(mesh.points, mesh.tets).sum()) <= bound + doubt
+    assert bound < 0.06 * volume  # 12 elements per circle
 
 
 @every_part
