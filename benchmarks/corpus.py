@@ -2,11 +2,11 @@
 
     /usr/bin/python3 benchmarks/corpus.py FOLDER -o table.csv [--seconds 60] [--merge rivals.csv]
 
-The folder is your own: no part is kept here.  Each part runs in a process of its own; a row says whether
-there is a mesh (ok), how large, its worst angles, the elements below the target angle by reason, the time and
-the memory, or what went wrong.  Sizes are automatic (1/20 of the diagonal), or --max-size, or those of --merge:
-a table of other meshers with the same columns (part, mesher, size, ...; missing ones stay empty), whose rows
-are written beside ours.
+The folder is your own: no part is kept here. Each part runs in a process of its own; a row says whether
+there is a mesh (ok), how large, its worst angles, the elements below the target angle by reason, the time
+and the memory, or what went wrong. Sizes are automatic (1/20 of the diagonal), or --max-size, or those of
+--merge: a table of other meshers with the same columns (part, mesher, size, ...; missing ones stay empty),
+whose rows are written beside ours.
 """
 
 import argparse
