@@ -20,5 +20,5 @@ def add_preferences():
     """Our page in the preferences; its widgets are made when somebody opens it."""
     from .preferences import PreferencesPage
 
-    FreeCADGui.addIcon("preferences-delaunay_mesher", texts.icon("delaunay_mesher"))
+    FreeCADGui.addIconPath(texts.ICONS)  # preferences-delaunay_mesher.svg is there
     FreeCADGui.addPreferencePage(PreferencesPage, "Delaunay Mesher")

@@ -8,6 +8,7 @@ CONTEXT = "DelaunayMesher"
 RESOURCES = os.path.join(
     os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "resources"
 )
+ICONS = os.path.join(RESOURCES, "icons")
 TRANSLATIONS = os.path.join(RESOURCES, "translations")
 
 
@@ -18,4 +19,4 @@ def tr(text):
 
 def icon(name):
     """Path of an icon of this workbench."""
-    return os.path.join(RESOURCES, "icons", name + ".svg")
+    return os.path.join(ICONS, name + ".svg")
