@@ -1,10 +1,10 @@
 #include "kernel/predicates.h"
 
 #include <array>
-#include <memory>
+#include <bit>
+#include <limits>
 
-#include "kernel/double_double.h"
-#include "kernel/expansion.h"
+#include "kernel/exact_integer.h"
 
 namespace dm {
 
@@ -15,110 +15,136 @@ PredicateCounters& predicate_counters() {
 
 namespace {
 
-// The coordinates of a - e in any of the number types below.
-template <class Number>
-struct Offset {
-  Number x, y, z;
+// A double as mantissa * 2^exponent, the exponent counted from the smallest that doubles have.
+struct Parts {
+  std::uint64_t mantissa;
+  int exponent;
+  bool negative;
+
+  explicit Parts(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const int biased = static_cast<int>(bits >> 52 & 0x7ff);
+    mantissa = (bits & 0xfffffffffffff) | static_cast<std::uint64_t>(biased != 0) << 52;
+    exponent = biased - (biased != 0);
+    negative = bits >> 63;
+  }
 };
 
-Offset<DoubleDouble> double_double_offset(const Vec3& a, const Vec3& e) {
-  return {exact_difference(a.x, e.x), exact_difference(a.y, e.y), exact_difference(a.z, e.z)};
-}
-// N = 1 when the differences are doubles, 2 in general.
-template <int N>
-Offset<Expansion<N>> expansion_offset(const Vec3& a, const Vec3& e) {
-  return {difference<N>(a.x, e.x), difference<N>(a.y, e.y), difference<N>(a.z, e.z)};
-}
-bool short_differences(std::initializer_list<const Vec3*> points, const Vec3& e) {
-  for (const Vec3* a : points)
-    if (two_diff(a->x, e.x).low != 0 || two_diff(a->y, e.y).low != 0 || two_diff(a->z, e.z).low != 0)
-      return false;
-  return true;
-}
+// Coordinates relative to the last of the points, as integers on the common grid 2^lowest.
+template <std::size_t Count>
+struct Grid {
+  std::array<const Vec3*, Count> points;
+  int lowest = std::numeric_limits<int>::max();  // exponent of the last bit that any coordinate uses
+  int bits = 0;                                  // of the largest difference
 
-template <class Number>
-auto minor_xy(const Offset<Number>& a, const Offset<Number>& b) {
+  explicit Grid(const std::array<const Vec3*, Count>& p) : points(p) {
+    const Vec3& e = *points[Count - 1];
+    double largest = 0;
+    for (const Vec3* a : points)
+      for (int i = 0; i < 3; ++i) {
+        const Parts x((*a)[i]);
+        if (x.mantissa != 0) lowest = std::min(lowest, x.exponent + std::countr_zero(x.mantissa));
+        largest = std::max(largest, std::abs((*a)[i] - e[i]));
+      }
+    // A rounded difference with biased exponent k means |difference| <= 2^(k + 54) of the smallest unit.
+    if (largest > 0) bits = Parts(largest).exponent + 54 - lowest;
+  }
+
+  // Modulo 2^(64 N): enough, for the differences fit.
+  template <int N>
+  ExactInteger<N> integer(double value) const {
+    ExactInteger<N> r;
+    const Parts x(value);
+    if (x.mantissa == 0) return r;
+    const int shift = x.exponent - lowest;
+    if (shift < 0) {
+      r.limb[0] = x.mantissa >> -shift;
+    } else {
+      const int first = shift / 64, rest = shift % 64;
+      if (first < N) r.limb[first] = x.mantissa << rest;
+      if (first + 1 < N && rest > 0) r.limb[first + 1] = x.mantissa >> (64 - rest);
+    }
+    return x.negative ? ExactInteger<N>() - r : r;
+  }
+};
+
+template <int N>
+struct Offset {
+  ExactInteger<N> x, y, z;
+
+  template <class Points>
+  Offset(const Points& grid, const Offset& e, int i)
+      : x(grid.template integer<N>(grid.points[i]->x) - e.x),
+        y(grid.template integer<N>(grid.points[i]->y) - e.y),
+        z(grid.template integer<N>(grid.points[i]->z) - e.z) {}
+  template <class Points>
+  explicit Offset(const Points& grid)
+      : x(grid.template integer<N>(grid.points.back()->x)),
+        y(grid.template integer<N>(grid.points.back()->y)),
+        z(grid.template integer<N>(grid.points.back()->z)) {}
+};
+
+template <int N>
+ExactInteger<2 * N> minor_xy(const Offset<N>& a, const Offset<N>& b) {
   return a.x * b.y - a.y * b.x;
 }
-template <class Number>
-auto square(const Offset<Number>& a) {
+template <int N>
+ExactInteger<2 * N> square(const Offset<N>& a) {
   return a.x * a.x + a.y * a.y + a.z * a.z;
 }
-// det of the rows a, b, c.
-template <class Number>
-auto triple(const Offset<Number>& a, const Offset<Number>& b, const Offset<Number>& c) {
-  return a.z * minor_xy(b, c) - b.z * minor_xy(a, c) + c.z * minor_xy(a, b);
-}
+// With |difference| < 2^(64 N - 2): minor < 2^(128 N - 3), triple product < 2^(192 N - 3), square <
+// 2^(128 N - 2), power < 2^(320 N - 3), so every sum below keeps its sign bit.
+template <int N>
+struct Orient3d {
+  static int sign(const Grid<4>& grid) {
+    const Offset<N> d(grid), a(grid, d, 0), b(grid, d, 1), c(grid, d, 2);
+    return -(a.z * minor_xy(b, c) - b.z * minor_xy(a, c) + c.z * minor_xy(a, b)).sign();
+  }
+};
+template <int N>
+struct Insphere {
+  static int sign(const Grid<5>& grid) {
+    const Offset<N> e(grid), a(grid, e, 0), b(grid, e, 1), c(grid, e, 2), d(grid, e, 3);
+    const auto ab = minor_xy(a, b), ac = minor_xy(a, c), ad = minor_xy(a, d);
+    const auto bc = minor_xy(b, c), bd = minor_xy(b, d), cd = minor_xy(c, d);
+    const auto va = b.z * cd - c.z * bd + d.z * bc, vb = c.z * ad - a.z * cd - d.z * ac;
+    const auto vc = a.z * bd - b.z * ad + d.z * ab, vd = b.z * ac - a.z * bc - c.z * ab;
+    return (square(a) * va + square(b) * vb + (square(c) * vc + square(d) * vd)).sign();
+  }
+};
 
-// Largest squared distance, for the error bounds.
-double largest_square(std::initializer_list<const Vec3*> points, const Vec3& e) {
-  double largest = 0;
-  for (const Vec3* a : points) largest = std::max(largest, norm2(*a - e));
-  return largest;
+// The fewest limbs that do; 34 hold any difference of two doubles.
+template <template <int> class Predicate, class Points>
+int sign(const Points& grid) {
+  if (grid.bits <= 62) return Predicate<1>::sign(grid);
+  if (grid.bits <= 126) return Predicate<2>::sign(grid);
+  if (grid.bits <= 446) return Predicate<7>::sign(grid);
+  return Predicate<34>::sign(grid);
 }
-
-// docs/kernel.md: 23 u^2 * 1.155 r^3 and 49 u^2 * 4 * 1.155 r^5, rounded up.
-constexpr double kUnit2 = filter::kUnit * filter::kUnit;
-constexpr double kTriple2 = 28 * kUnit2, kInsphere2 = 240 * kUnit2;
 
 template <int N>
-int orient3d_expansion(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return -triple(expansion_offset<N>(a, d), expansion_offset<N>(b, d), expansion_offset<N>(c, d)).sign();
-}
-
-template <int N>
-int insphere_expansion(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
-  const auto A = expansion_offset<N>(a, e), B = expansion_offset<N>(b, e);
-  const auto C = expansion_offset<N>(c, e), D = expansion_offset<N>(d, e);
-  using Term = decltype(square(A) * triple(B, C, D));
-  struct Work {  // on the heap: near a megabyte for N = 2
-    Term term[4];
-    decltype(term[0] + term[1]) half[2];
-    decltype(half[0] + half[1]) sum;
-  };
-  const std::unique_ptr<Work> w(new Work);
-  multiply(square(A), triple(B, C, D), w->term[0]);
-  multiply(square(B), triple(A, C, D), w->term[1]);
-  multiply(square(C), triple(A, B, D), w->term[2]);
-  multiply(square(D), triple(A, B, C), w->term[3]);
-  w->term[1].negate();
-  w->term[3].negate();
-  add(w->term[0], w->term[1], w->half[0]);
-  add(w->term[2], w->term[3], w->half[1]);
-  add(w->half[0], w->half[1], w->sum);
-  return w->sum.sign();
-}
+struct Collinear {
+  static int sign(const Grid<3>& grid) {
+    const Offset<N> a(grid), b(grid, a, 0), c(grid, a, 1);
+    return minor_xy(b, c).sign() == 0 && (b.y * c.z - b.z * c.y).sign() == 0 &&
+           (b.z * c.x - b.x * c.z).sign() == 0;
+  }
+};
 
 }  // namespace
 
 int filter::orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   ++predicate_counters().orient_exact;
-  const double volume =
-      triple(double_double_offset(a, d), double_double_offset(b, d), double_double_offset(c, d)).high;
-  const double largest = largest_square({&a, &b, &c}, d);
-  if (volume * volume > kTriple2 * kTriple2 * (largest * largest * largest) + kTiny)
-    return volume > 0 ? -1 : 1;
-  if (short_differences({&a, &b, &c}, d)) return orient3d_expansion<1>(a, b, c, d);
-  return orient3d_expansion<2>(a, b, c, d);
+  return sign<Orient3d>(Grid<4>({&a, &b, &c, &d}));
 }
 
 int filter::insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
   ++predicate_counters().insphere_exact;
-  const auto A = double_double_offset(a, e), B = double_double_offset(b, e);
-  const auto C = double_double_offset(c, e), D = double_double_offset(d, e);
-  const double power = ((square(A) * triple(B, C, D) - square(B) * triple(A, C, D)) +
-                        (square(C) * triple(A, B, D) - square(D) * triple(A, B, C)))
-                           .high;
-  const double largest = largest_square({&a, &b, &c, &d}, e), l2 = largest * largest;
-  if (power * power > kInsphere2 * kInsphere2 * (l2 * l2 * largest) + kTiny) return power > 0 ? 1 : -1;
-  if (short_differences({&a, &b, &c, &d}, e)) return insphere_expansion<1>(a, b, c, d, e);
-  return insphere_expansion<2>(a, b, c, d, e);
+  return sign<Insphere>(Grid<5>({&a, &b, &c, &d, &e}));
 }
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto B = expansion_offset<2>(b, a), C = expansion_offset<2>(c, a);
-  return minor_xy(B, C).sign() == 0 && (B.y * C.z - B.z * C.y).sign() == 0 &&
-         (B.z * C.x - B.x * C.z).sign() == 0;
+  return sign<Collinear>(Grid<3>({&b, &c, &a})) != 0;
 }
 
 }  // namespace dm

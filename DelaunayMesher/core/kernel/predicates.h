@@ -1,7 +1,7 @@
-// Exact geometric predicates: semi-static filter, then double-double, then expansions (expansion.h).
+// Exact geometric predicates: semi-static filter, then integers of a fixed width (exact_integer.h).
 //
-// Idea: Shewchuk (1997) for the exact stage; filters as derived in docs/kernel.md.  All signs are exact for
-// coordinates of magnitude 1e-40 .. 1e50 or 0 (beyond that products may overflow or underflow).
+// Filters as derived in docs/kernel.md; the exact stage puts all coordinates of a test on their common grid.
+// All signs are exact for every finite input, whatever overflows or underflows in the filter.
 // Ties of insphere are broken by the triangulation (Devillers, Teillaud 2003), not here.
 #pragma once
 

@@ -21,7 +21,7 @@ using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
     4096, 4096, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 
 // x * 2^kShift as an integer: exact for every |x| >= 2^(52 - kShift) and 0.
-constexpr int kShift = 300;
+constexpr int kShift = 380;
 Integer exact(double x) {
   if (x == 0) return 0;
   int exponent = 0;
@@ -121,6 +121,11 @@ const Kind kKinds[] = {
     {"mixed scales",
      [](Random& r, Vec3* p) {
        for (int i = 0; i < 5; ++i) p[i] = std::pow(10.0, 9 * r.symmetric()) * r.in_ball();
+     }},
+    {"scales far apart",
+     [](Random& r, Vec3* p) {
+       for (int i = 0; i < 5; ++i) p[i] = std::pow(10.0, 75 * r.symmetric()) * on_sphere(r);
+       if (r.next() % 2) p[4] = p[0] + p[1];
      }},
     {"repeated",
      [](Random& r, Vec3* p) {
