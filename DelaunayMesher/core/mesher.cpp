@@ -44,6 +44,7 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   add("refinement_sites", static_cast<double>(refinement.sites));
   add("refinement_tries", static_cast<double>(refinement.tries));
   add("refinement_relaxed", static_cast<double>(refinement.relaxed));
+  add("refinement_constrained", static_cast<double>(refinement.constrained));
   add("refinement_encroached", static_cast<double>(refinement.encroached));
   add("refinement_boundary_splits",
       static_cast<double>(refinement.triangle_splits + refinement.segment_splits));

@@ -32,17 +32,20 @@ double evaluate_site(const LabelledTriangulation& mesh, const Cavity& cavity, co
     if (tets.tag(t) == 0) continue;
     const int i = f % 4;
     const Tet& v = tets.corners(t);
-    const Index u0 = v[(i + 1) & 3], u1 = v[(i + 2) & 3], u2 = v[(i + 3) & 3];
+    const auto& corner = kFaceCorners[i];
+    const Index u0 = v[corner[0]], u1 = v[corner[1]], u2 = v[corner[2]];
     const Vec3 &a = tets.point(u0), &b = tets.point(u1), &c = tets.point(u2);
+    if (dot(area_vector(a, b, c), p - a) <= 0) return kRejected;
     double s = sharpness(a, b, c, p);
     if (s > target) {
       const unsigned exempt = exempt_angles(mesh.boundary, u0, u1, u2, -1);
       if (exempt) s = sharpness(a, b, c, p, exempt);
     }
     if (s <= worst) continue;
-    if (s > target && !tets.marked(t, i)) {
+    if (s > target) {
       const Sphere sphere = circumsphere(a, b, c, p);
-      if (sphere.radius2 > bound.squared(sphere.centre)) continue;  // too big to stay
+      const bool stuck = tets.marked(t, i) && dot(area_vector(a, b, c), sphere.centre - a) <= 0;
+      if (!stuck && sphere.radius2 > bound.squared(sphere.centre)) continue;  // too big to stay
     }
     worst = s;
     if (worst > give_up) break;

@@ -44,8 +44,11 @@ struct RadiusBound {
   }
 };
 
+inline constexpr double kRejected = 2;  // sharpness of no candidate at all
+
 // Sharpness of the worst tetrahedron that site p would make and that would stay: on a labelled face, or with
-// a circumradius within the bound.  Stops early once it exceeds `give_up`.
+// a circumradius within the bound.  Stops early once it exceeds `give_up`; kRejected
+// when a new tetrahedron would not be positive.
 double evaluate_site(const LabelledTriangulation& mesh, const Cavity& cavity, const Vec3& p,
                      const RadiusBound& bound, double target, double give_up);
 

@@ -8,8 +8,10 @@ namespace dm {
 
 namespace {
 
-// Angles between the two labelled faces, seen from the tetrahedron, below which it is never handed over.
-constexpr double kBluntAngle = 150, kFlatAngle = 178;  // degrees
+// Angle between the two labelled faces, seen from the tetrahedron, below which it is never handed over.
+constexpr double kBluntAngle = 150;  // degrees
+// Six times the volume over the longest edge cubed, below which a tetrahedron is flat to rounding.
+constexpr double kFlatVolume = 1e-9;
 
 struct Ear {
   int i, j;             // the two labelled faces
@@ -51,6 +53,15 @@ bool beyond(const LabelledTriangulation& mesh, Index tet, int i, const Vec3& cen
   return dot(n, p[v[i]] - a) * dot(n, centre - a) < 0;
 }
 
+bool is_flat(const LabelledTriangulation& mesh, Index tet) {
+  const auto [a, b, c, d] = mesh.tets.corners(tet);
+  const auto& p = mesh.tets.points();
+  const double longest2 = std::max({norm2(p[b] - p[a]), norm2(p[c] - p[a]), norm2(p[d] - p[a]),
+                                    norm2(p[c] - p[b]), norm2(p[d] - p[b]), norm2(p[d] - p[c])});
+  const double volume6 = dot(area_vector(p[a], p[b], p[c]), p[d] - p[a]);
+  return volume6 < kFlatVolume * longest2 * std::sqrt(longest2);
+}
+
 bool hand_over(LabelledTriangulation& mesh, Index tet, const Ear& ear) {
   Triangulation& tets = mesh.tets;
   const std::uint16_t other = tets.tag(tets.neighbour(tet, ear.i) / 4);
@@ -74,8 +85,8 @@ bool hand_over(LabelledTriangulation& mesh, Index tet, const Ear& ear) {
 bool peel(LabelledTriangulation& mesh, Index tet, const Vec3& circumcentre, bool sliver) {
   const auto ear = find_ear(mesh, tet);
   if (!ear) return false;
-  const double least = sliver || beyond(mesh, tet, ear->i, circumcentre) ? kBluntAngle : kFlatAngle;
-  return angle_between(mesh, *ear) >= least && hand_over(mesh, tet, *ear);
+  const bool misplaced = sliver || beyond(mesh, tet, ear->i, circumcentre) || is_flat(mesh, tet);
+  return misplaced && angle_between(mesh, *ear) >= kBluntAngle && hand_over(mesh, tet, *ear);
 }
 
 bool flip_in(LabelledTriangulation& mesh, Index tet, std::uint16_t tag) {

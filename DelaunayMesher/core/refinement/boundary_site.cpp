@@ -28,7 +28,7 @@ SiteVerdict BoundarySite::propose(const Vec3& p, Index hint, Index t, Index a, I
   face_ = t >= 0 ? mesh_.boundary.face(t) : -1;
   own_ = {a, b};
   segment_ = {-1, -1};
-  const Index start = mesh_.tets.in_conflict(hint, p) ? hint : mesh_.tets.locate(p, hint);
+  const Index start = conflict_near(mesh_.tets, p, hint);
   if (start < 0) return SiteVerdict::outside_cavity;
   mesh_.tets.find_cavity(p, start, false, cavity_);
   if (cavity_.border.empty()) return SiteVerdict::outside_cavity;
@@ -36,8 +36,8 @@ SiteVerdict BoundarySite::propose(const Vec3& p, Index hint, Index t, Index a, I
   if (segment_[0] >= 0) return SiteVerdict::segment;
   if (patch_.size() != swallowed_.size()) return SiteVerdict::other_boundary;
   if (!collect_ring() || !ring_separates_regions()) return SiteVerdict::not_a_disc;
-  sharpness_ = evaluate_site(mesh_, cavity_, p, bound_, target_, 2);
-  return SiteVerdict::ok;
+  sharpness_ = evaluate_site(mesh_, cavity_, p, bound_, target_, kRejected);
+  return sharpness_ < kRejected ? SiteVerdict::ok : SiteVerdict::not_a_disc;
 }
 
 // The labelled triangles inside the cavity, and those of them that hang together with t (or the segment's

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "refinement/angle_test.h"
+#include "refinement/constrained_cavity.h"
 
 namespace dm {
 
@@ -20,6 +21,9 @@ class BoundarySite {
   SiteVerdict propose(const Vec3& p, Index hint, Index t, Index a, Index b);
   double quality() const { return sharpness_; }           // of the last proposal that was ok
   Segment swallowed_segment() const { return segment_; }  // after the verdict `segment`
+
+  const Cavity& cavity() const { return cavity_; }
+  bool is_ball() const { return dm::is_ball(mesh_.tets, cavity_); }
 
   // Inserts the last proposal that was ok; returns the tetrahedra made.
   const std::vector<Index>& commit();

@@ -1,11 +1,13 @@
 #include "refinement/refine.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/random.h"
 #include "refinement/angle_test.h"
 #include "refinement/boundary_flip.h"
 #include "refinement/boundary_site.h"
+#include "refinement/constrained_cavity.h"
 
 namespace dm {
 
@@ -18,8 +20,9 @@ constexpr double kFirstPick = 0.1, kPickStep = 0.03, kLargestPick = 0.6;  // f_k
 constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
 constexpr double kLargestSurfacePick = 0.5;
 constexpr double kTriangleFloor = 0.5;  // circumradius over wanted edge: smaller triangles are not split
+constexpr double kSpacing = 0.3;        // least distance of a site from all vertices, over rho
+constexpr double kFarFacet = 4;         // circumradii from which on a site no longer encroaches
 constexpr double kSegmentFloor = 0.6;   // length over wanted edge
-constexpr double kRejected = 2;         // sharpness of no candidate at all
 
 class Refinement {
  public:
@@ -34,10 +37,12 @@ class Refinement {
         context_(context),
         report_(report),
         target_(sharpness_of_angle(options.target_angle)),
+        constrained_search_(mesh.tets),
         boundary_site_(mesh, bound_, target_),
         expected_sites_(std::max(1.0, size.predicted_tetrahedra() / 5.5)) {}
 
   void run() {
+    settle_ears();
     collect();
     sort_along_curve(next_);
     drain();
@@ -63,6 +68,25 @@ class Refinement {
     const Sphere s = sphere_of(tet);
     if (s.radius2 > bound_.squared(s.centre)) return true;
     return sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
+  }
+
+  // Rules R2 and R3 once for all tetrahedra: points of a sphere or a cylinder leave whole layers of flat
+  // tetrahedra on the wrong side, and each would refuse sites one by one.
+  void settle_ears() {
+    constexpr int kPasses = 8;
+    for (int pass = 0, changed = 1; changed && pass < kPasses; ++pass) {
+      changed = 0;
+      for (Index t = 0; t < tets_.slot_count(); ++t) {
+        if (tets_.is_free(t) || std::popcount(tets_.marks(t)) != 2) continue;
+        if (is_inside(t) && peel(mesh_, t, sphere_of(t).centre, false)) {
+          ++changed;
+          continue;
+        }
+        for (int i = 0; i < 4 && !is_inside(t); ++i)
+          if (tets_.marked(t, i) && flip_in(mesh_, t, tets_.tag(tets_.neighbour(t, i) / 4))) ++changed;
+      }
+      report_.flips += changed;
+    }
   }
 
   void push_if_bad(Index tet) {
@@ -119,17 +143,20 @@ class Refinement {
       ++report_.flips;
       return;
     }
-    if (!insert_inside(tet, sphere, big)) insert_on_boundary(tet);
+    if (insert_inside(tet, sphere, big, false) || insert_on_boundary(tet)) return;
+    if (big) insert_inside(tet, sphere, big, true);
   }
 
-  // Tries random sites round the circumcentre.  False when the boundary is in the way.
-  bool insert_inside(Index tet, const Sphere& sphere, bool big) {
+  // Tries random sites round the circumcentre.  False when the boundary is in the way; `constrained` sites
+  // keep to this side of it.
+  bool insert_inside(Index tet, const Sphere& sphere, bool big, bool constrained) {
     const std::uint16_t tag = tets_.tag(tet);
     const double radius = std::sqrt(sphere.radius2);
     Tet key = tets_.corners(tet);
     std::sort(key.begin(), key.end());
     double best = kRejected;
     Vec3 best_site;
+    bool best_constrained = false;
     int refused = 0;
     hits_.clear();
     for (int k = 0; k < kTries; ++k) {
@@ -138,25 +165,36 @@ class Refinement {
       Random random(context_.seed, key[0], key[1], key[2], key[3], k);
       const Vec3 site = sphere.centre + (f * radius) * random.in_ball();
       ++report_.tries;
-      if (!find_cavity_inside(site, tet, tag)) {
+      constrained_ = constrained;
+      const bool found = constrained ? constrained_search_.find_cavity(site, tet, cavity_)
+                                     : find_cavity_inside(site, tet, tag);
+      if (!found) {
         ++report_.encroached;
         if (++refused >= kEncroachedTries && best == kRejected) break;
         continue;
       }
-      if (cavity_.border.empty()) continue;
+      if (cavity_.border.empty() || ((constrained_ || !big) && is_crowded(cavity_, site))) continue;
       const double s = evaluate_site(mesh_, cavity_, site, bound_, target_, best);
-      if (s <= target_) return commit_inside(site), true;
-      if (s < best) best = s, best_site = site;
+      if (s <= target_) return commit_inside(site, constrained_), true;
+      if (s < best) best = s, best_site = site, best_constrained = constrained_;
     }
-    if (refused && best > target_) return false;
-    if (big && best < kRejected) relax(tet, best_site);
+    if (refused && !constrained && best > target_) return false;
+    if (big && best < kRejected) relax(tet, best_site, best_constrained);
     return true;
   }
 
+  // What makes the refinement end: no site comes nearer to a vertex than this (a site for a big tetrahedron
+  // keeps that distance by itself).
+  bool is_crowded(const Cavity& cavity, const Vec3& site) const {
+    return nearest_corner2(tets_, cavity, site) < kSpacing * kSpacing * bound_.squared(site);
+  }
+
   // The best site seen although it misses the target; the slivers it leaves are cured in later rounds.
-  void relax(Index tet, const Vec3& site) {
-    if (tets_.find_cavity(site, tet, true, cavity_) >= 0) return;
-    commit_inside(site);
+  void relax(Index tet, const Vec3& site, bool constrained) {
+    const bool found = constrained ? constrained_search_.find_cavity(site, tet, cavity_)
+                                   : tets_.find_cavity(site, tet, true, cavity_) < 0;
+    if (!found || cavity_.tets.empty()) return;
+    commit_inside(site, constrained);
     ++report_.relaxed;
   }
 
@@ -168,7 +206,9 @@ class Refinement {
       Index beyond = tets_.neighbour(f / 4, f % 4) / 4;
       if (tets_.tag(beyond) == tag) beyond = f / 4;
       if (!flip_in(mesh_, beyond, tag)) {
-        remember_hit(f);
+        const Index label = label_of(f);
+        if (is_far(label, site)) return constrained_ = constrained_search_.find_cavity(site, tet, cavity_);
+        remember_hit(label);
         return false;
       }
       ++report_.flips;
@@ -176,7 +216,7 @@ class Refinement {
     return false;
   }
 
-  void remember_hit(Face f) {
+  Index label_of(Face f) const {
     Index tet = f / 4;
     int i = f % 4;
     if (tets_.is_ghost(tet)) {
@@ -184,25 +224,39 @@ class Refinement {
       tet = g / 4, i = g % 4;
     }
     const Tet& v = tets_.corners(tet);
-    const Index label = mesh_.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+    return mesh_.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+  }
+
+  // Splitting a labelled triangle cannot help a site that is many of its radii away.
+  bool is_far(Index label, const Vec3& site) const {
+    const Triangle& q = mesh_.boundary.corners(label);
+    const Sphere circle = circumcircle(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
+    return norm2(site - circle.centre) > kFarFacet * kFarFacet * circle.radius2;
+  }
+
+  void remember_hit(Index label) {
     for (auto& [triangle, count] : hits_)
       if (triangle == label) return void(++count);
     hits_.push_back({label, 1});
   }
 
-  void commit_inside(const Vec3& site) {
+  void commit_inside(const Vec3& site, bool constrained) {
+    if (report_.constrained && !is_ball(tets_, cavity_)) return;
     tets_.insert(site, cavity_);
     ++report_.sites;
+    report_.constrained += constrained;
     for (const Index t : cavity_.created) push_if_bad(t);
   }
 
-  // Splits the labelled triangle that refused most sites.
-  void insert_on_boundary(Index tet) {
+  // Splits the labelled triangle that refused most sites; false when it may not be split.
+  bool insert_on_boundary(Index tet) {
     Index worst = -1;
     int most = 0;
     for (const auto& [triangle, count] : hits_)
       if (count > most && mesh_.boundary.alive(triangle)) worst = triangle, most = count;
-    if (worst >= 0 && split_triangle(worst, tet)) push_if_bad(tet);
+    if (worst < 0 || !split_triangle(worst, tet)) return false;
+    push_if_bad(tet);
+    return true;
   }
 
   bool split_triangle(Index t, Index hint) {
@@ -210,6 +264,8 @@ class Refinement {
     const Sphere circle = circumcircle(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
     const double radius = std::sqrt(circle.radius2);
     if (!(radius >= kTriangleFloor * edge_size(circle.centre)) || !std::isfinite(radius)) return false;
+    if (static_cast<Index>(unsplittable_.size()) <= t) unsplittable_.resize(mesh_.boundary.slot_count(), 0);
+    if (unsplittable_[t]) return false;
     const Index face = mesh_.boundary.face(t);
     double best = kRejected;
     Vec3 best_site;
@@ -223,14 +279,16 @@ class Refinement {
         segments_.push_back(boundary_site_.swallowed_segment());
         if (k >= kEncroachedTries && best == kRejected) break;
       }
-      if (verdict != SiteVerdict::ok) continue;
+      if (verdict != SiteVerdict::ok || is_crowded(boundary_site_.cavity(), site)) continue;
       if (boundary_site_.quality() <= target_) return commit_boundary(report_.triangle_splits);
       if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
     }
     if (best < kRejected && !sliver_mode_ &&
         boundary_site_.propose(best_site, hint, t, -1, -1) == SiteVerdict::ok)
       return commit_boundary(report_.triangle_splits);
-    return split_any_segment(hint);
+    if (split_any_segment(hint)) return true;
+    unsplittable_[t] = !sliver_mode_;
+    return false;
   }
 
   bool split_any_segment(Index hint) {
@@ -251,6 +309,7 @@ class Refinement {
       const double w = 0.5 + std::min(0.25, 0.02 + 0.01 * k) * random.symmetric();
       const Vec3 site = geometry_.project_to_edge(edge, w * pa + (1 - w) * pb);
       if (boundary_site_.propose(site, hint, -1, a, b) != SiteVerdict::ok) continue;
+      if (is_crowded(boundary_site_.cavity(), site)) continue;
       if (boundary_site_.quality() <= target_) return commit_boundary(report_.segment_splits);
       if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
     }
@@ -260,6 +319,7 @@ class Refinement {
   }
 
   bool commit_boundary(std::int64_t& counter) {
+    if (report_.constrained && !boundary_site_.is_ball()) return false;
     ++counter;
     for (const Index t : boundary_site_.commit()) push_if_bad(t);
     return true;
@@ -274,9 +334,11 @@ class Refinement {
   Context& context_;
   RefineReport& report_;
   double target_;
+  ConstrainedSearch constrained_search_;
   BoundarySite boundary_site_;
   double expected_sites_;
-  bool sliver_mode_ = false;
+  bool sliver_mode_ = false, constrained_ = false;
+  std::vector<char> unsplittable_;  // per labelled triangle: splitting it has failed before
   std::uint64_t steps_ = 0;
   Cavity cavity_;
   std::vector<Index> work_, next_;

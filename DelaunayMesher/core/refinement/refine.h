@@ -25,6 +25,7 @@ struct RefineOptions {
 
 struct RefineReport {
   std::int64_t sites = 0, tries = 0, relaxed = 0;
+  std::int64_t constrained = 0;  // sites whose cavity stopped at the boundary: not Delaunay across it
   std::int64_t encroached = 0, triangle_splits = 0, segment_splits = 0, flips = 0, slivers = 0;
 };
 

@@ -1,0 +1,97 @@
+#include "refinement/constrained_cavity.h"
+
+#include <algorithm>
+
+#include "kernel/predicates.h"
+
+namespace dm {
+
+namespace {
+
+constexpr std::size_t kNear = 256;  // tetrahedra looked at by conflict_near
+
+bool sees(const Triangulation& tets, const Vec3& p, Face f) {
+  const Tet& v = tets.corners(f / 4);
+  const auto& q = kFaceCorners[f % 4];
+  return orient3d(tets.point(v[q[0]]), tets.point(v[q[1]]), tets.point(v[q[2]]), p) > 0;
+}
+
+}  // namespace
+
+bool is_ball(const Triangulation& tets, const Cavity& cavity) {
+  std::vector<Index> all, border;
+  for (const Index t : cavity.tets)
+    for (const Index v : tets.corners(t)) all.push_back(v);
+  for (const Face f : cavity.border)
+    for (const int c : kFaceCorners[f % 4]) border.push_back(tets.corners(f / 4)[c]);
+  for (auto* list : {&all, &border}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  // Euler's formula for the border of a ball: F = 2 V - 4.
+  return all.size() == border.size() && cavity.border.size() + 4 == 2 * border.size();
+}
+
+bool ConstrainedSearch::find_cavity(const Vec3& p, Index start, Cavity& cavity) {
+  cavity.border.clear();
+  cavity.outside.clear();
+  cavity.tets.clear();
+  if (!tets_.in_conflict(start, p)) return false;
+  collect(p, start, cavity);
+  return collect_border(p, cavity) && is_ball(tets_, cavity);
+}
+
+void ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
+  stamp_.resize(tets_.slot_count(), 0);
+  ++epoch_;
+  cavity.tets.push_back(start);
+  stamp_[start] = 2 * epoch_ + 1;
+  for (std::size_t k = 0; k < cavity.tets.size(); ++k) {
+    const Index t = cavity.tets[k];
+    for (int i = 0; i < 4; ++i) {
+      const Index n = tets_.neighbour(t, i) / 4;
+      if (tets_.marked(t, i) || stamp_[n] >= 2 * epoch_) continue;
+      const bool conflict = tets_.in_conflict(n, p);
+      stamp_[n] = 2 * epoch_ + conflict;
+      if (conflict) cavity.tets.push_back(n);
+    }
+  }
+}
+
+bool ConstrainedSearch::collect_border(const Vec3& p, Cavity& cavity) const {
+  for (const Index t : cavity.tets)
+    for (int i = 0; i < 4; ++i) {
+      const Face g = tets_.neighbour(t, i);
+      const bool inner = stamp_[g / 4] == 2 * epoch_ + 1;
+      if (inner && tets_.marked(t, i)) return false;
+      if (inner) continue;
+      if (!sees(tets_, p, 4 * t + i)) return false;
+      cavity.border.push_back(4 * t + i);
+      cavity.outside.push_back(g);
+    }
+  return true;
+}
+
+double nearest_corner2(const Triangulation& tets, const Cavity& cavity, const Vec3& p) {
+  double nearest2 = HUGE_VAL;
+  for (const Face f : cavity.border)
+    for (const int c : kFaceCorners[f % 4]) {
+      const Index v = tets.corners(f / 4)[c];
+      if (v != Triangulation::ghost) nearest2 = std::min(nearest2, norm2(tets.point(v) - p));
+    }
+  return nearest2;
+}
+
+Index conflict_near(const Triangulation& tets, const Vec3& p, Index hint) {
+  std::vector<Index> near{hint};
+  for (std::size_t k = 0; k < near.size() && k < kNear; ++k) {
+    if (tets.in_conflict(near[k], p)) return near[k];
+    for (int i = 0; i < 4; ++i) {
+      const Index n = tets.neighbour(near[k], i) / 4;
+      if (std::find(near.begin(), near.end(), n) == near.end()) near.push_back(n);
+    }
+  }
+  return -1;
+}
+
+}  // namespace dm
