@@ -1,5 +1,6 @@
 """The workbench with its menu and toolbar."""
 
+import FreeCAD
 import FreeCADGui
 
 from . import commands
@@ -22,9 +23,13 @@ class DelaunayMesherWorkbench(FreeCADGui.Workbench):
         self.appendToolbar(tr("Analysis"), self.fem_commands())
 
     def fem_commands(self):
-        """Commands of FreeCAD's FEM workbench that are there."""
-        import femcommands.commands  # noqa: F401  registers them
-        import FemGui  # noqa: F401
+        """Commands of FreeCAD's FEM workbench that are there; none where that workbench does not load."""
+        try:
+            import femcommands.commands  # noqa: F401  registers them
+            import FemGui  # noqa: F401
+        except ImportError as error:
+            FreeCAD.Console.PrintWarning("Delaunay Mesher: the FEM workbench does not load: %s\n" % error)
+            return []
 
         wanted = ["FEM_Analysis", "FEM_MaterialSolid", "FEM_ConstraintFixed", "FEM_ConstraintForce"]
         known = FreeCADGui.listCommands()

@@ -29,14 +29,15 @@ def freecad():
 
 def make_home(home, language="English"):
     """A home directory in which FreeCAD finds this repository as an add-on."""
-    mods = os.path.join(home, ".local", "share", "FreeCAD", "Mod")
-    config = os.path.join(home, ".config", "FreeCAD")
-    for folder in (mods, config):
-        os.makedirs(folder, exist_ok=True)
-    if not os.path.lexists(os.path.join(mods, "DelaunayMesher")):
-        os.symlink(ROOT, os.path.join(mods, "DelaunayMesher"))
-    with open(os.path.join(config, "user.cfg"), "w", encoding="utf-8") as file:
-        file.write(SETTINGS % language)
+    for version in ("", "v1-1"):  # FreeCAD 1.1 has folders of its own, and asks when they are missing
+        mods = os.path.join(home, ".local", "share", "FreeCAD", version, "Mod")
+        config = os.path.join(home, ".config", "FreeCAD", version)
+        for folder in (mods, config):
+            os.makedirs(folder, exist_ok=True)
+        if not os.path.lexists(os.path.join(mods, "DelaunayMesher")):
+            os.symlink(ROOT, os.path.join(mods, "DelaunayMesher"))
+        with open(os.path.join(config, "user.cfg"), "w", encoding="utf-8") as file:
+            file.write(SETTINGS % language)
 
 
 def run_in_window(script, home, output, seconds=300, language="English"):
