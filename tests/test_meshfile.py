@@ -48,10 +48,12 @@ def two_tets(order):
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("ending", meshfile.MESH_ENDINGS)
 def test_formats_read_back(tmp_path, ending, order):
-    if order == 2 and ending == ".mesh":
-        pytest.xfail("Medit's format has no elements of second order")
     mesh = two_tets(order)
     path = tmp_path / ("a" + ending)
+    if order == 2 and ending == ".mesh":  # Medit's format has no elements of second order
+        with pytest.raises(InputError):
+            mesh.write(path)
+        return
     mesh.write(path)
     assert [item.name for item in tmp_path.iterdir()] == [path.name]
     if order == 2 and ending == ".xdmf":

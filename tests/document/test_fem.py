@@ -193,13 +193,14 @@ def solved(analysis, solver, folder):
     return max(result.DisplacementLengths)
 
 
-def test_freecads_cantilever_bends_as_beam_theory_says(tmp_path):
+def test_freecads_cantilever_bends_as_beam_theory_and_gmsh_say(tmp_path):
     from femexamples.ccx_cantilever_faceload import setup
 
     file = setup()
     try:
         analysis, part = file.Analysis, file.Box
         old = next(item for item in analysis.Group if item.isDerivedFrom("Fem::FemMeshObject"))
+        gmsh_says = solved(analysis, file.CalculiXccxTools, tmp_path)
         analysis.removeObject(old)
         file.removeObject(old.Name)
         mesh = document.add_mesh(part, analysis=analysis, max_size=500.0, order=2)
@@ -207,7 +208,9 @@ def test_freecads_cantilever_bends_as_beam_theory_says(tmp_path):
         length, side, force, young, poisson = 8000.0, 1000.0, 9e6, 210000.0, 0.3
         inertia, area, shear = side**4 / 12, side**2, young / (2 * (1 + poisson))
         theory = force * length**3 / (3 * young * inertia) + force * length / (5 / 6 * shear * area)
-        assert solved(analysis, file.CalculiXccxTools, tmp_path) == pytest.approx(theory, rel=0.02)
+        we_say = solved(analysis, file.CalculiXccxTools, tmp_path)
+        assert we_say == pytest.approx(theory, rel=0.02)
+        assert we_say == pytest.approx(gmsh_says, rel=0.02)
     finally:
         FreeCAD.closeDocument(file.Name)
 
@@ -221,3 +224,26 @@ def test_touching_solids_have_groups_on_both_sides():
     assert names >= {"Face%d" % number for number in range(1, 13)} | {"Solid1", "Solid2"}
     assert {"Edge%d" % number for number in range(1, 25)} <= names
     assert volumes(mesh.points, mesh.tets[mesh.tet_solid == 2]).sum() == pytest.approx(1000)
+
+
+@both_orders
+def test_overlapping_solids_are_meshed_apart(order):
+    first = Part.makeBox(10, 10, 10)
+    second = Part.makeBox(10, 10, 10, FreeCAD.Vector(10, 3, 4))
+    third = Part.makeBox(10, 10, 10, FreeCAD.Vector(5, -5, -5))  # inside the first as well
+    shape = Part.makeCompound([first, second, third])
+    options = document.make_options(max_size=4.0, order=order, sizes={"Solid3": 2.5, "Face7": 1.5})
+    mesh = document.mesh_shape(shape, options)
+    assert any("fit together" in text for text in mesh.warnings)
+    parts = [mesh.tets[mesh.tet_solid == number] for number in (1, 2, 3)]
+    for tets in parts:
+        assert volumes(mesh.points, tets).sum() == pytest.approx(1000)
+    assert len(parts[2]) > 2 * len(parts[0]) and len(parts[1]) > len(parts[0])
+    assert set(mesh.triangle_face) == set(range(18)) and set(mesh.line_edge) == set(range(36))
+    for number, face in enumerate(shape.Faces):
+        nodes = mesh.points[mesh.nodes_of("Face%d" % (number + 1))]
+        assert max(face.distToShape(Part.Vertex(*node))[0] for node in nodes[:20]) < 1e-7
+    corners = np.unique(mesh.tets[:, :4])
+    assert corners.max() == len(corners) - 1  # mid-side nodes come last
+    filled = document.fem_mesh(mesh)
+    assert {"Solid1", "Solid2", "Solid3"} <= {filled.getGroupName(number) for number in filled.Groups}
