@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from . import extension, sizing
+from . import extension, joining, sizing
 from .errors import InputError, MeshCancelled, MeshError
 from .meshfile import CAD_ENDINGS, ending_of
 from .options import make_options
@@ -19,11 +19,12 @@ from .result import mesh_from_core
 from .surfacefile import Surface, read_surface
 
 
-def run(source, options=None, report=None):
+def run(source, options=None, report=None, keep=()):
     """Mesh of a Part shape, a Plc, a surface (points, triangles) or a file name.
 
     options: MeshOptions, dict or None. report: callable (stage, fraction in 0..1) called now and then from
-    this thread; False cancels. Raises MeshError, InputError (wrong options, unreadable file) or
+    this thread; False cancels. keep: names of seams and smooth vertices of a Part shape that shall be
+    features. Raises MeshError, InputError (wrong options, unreadable file) or
     MeshCancelled.
     """
     core = extension.load()
@@ -34,19 +35,58 @@ def run(source, options=None, report=None):
             source = read(source)
     start = time.perf_counter()
     with _stage("plc", seconds, report):
-        plc, shape, aliases = to_plc(source, options)
+        plcs, shape, converted = to_plcs(source, options, keep)
         if options.max_size is None:
-            options = options.with_changes(max_size=sizing.automatic_max_size(plc.points))
-        core_options = options_for_core(options, plc)
+            points = np.concatenate([plc.points for plc in plcs])
+            options = options.with_changes(max_size=sizing.automatic_max_size(points))
     try:
-        result = core.mesh(plc.as_dict(), plc.geometry, core_options, report)
+        result, warnings = mesh_all(core, plcs, converted, options, report)
     except MemoryError:
         raise MeshError("refinement", "out_of_memory", "the memory is full; use a larger size") from None
-    mesh = mesh_from_core(result, options, plc.warnings)
+    mesh = mesh_from_core(result, options, warnings)
     mesh.total_seconds = time.perf_counter() - start
     mesh.seconds = _joined(seconds, mesh.seconds)
-    mesh.shape, mesh.aliases = shape, aliases
+    mesh.shape, mesh.aliases = shape, getattr(converted, "aliases", None)
     return mesh
+
+
+def mesh_all(core, plcs, converted, options, report):
+    """(result of the core, warnings) of all PLCs together.
+
+    When one with several solids of a shape fails, its solids are meshed one by one instead.
+    """
+    waiting, done, results, warnings = list(plcs), [], [], []
+    while waiting:
+        plc = waiting.pop(0)
+        total = len(done) + 1 + len(waiting)
+        tell = _share(report, len(done) / total, 1.0 / total) if total > 1 else report
+        try:
+            result = core.mesh(plc.as_dict(), plc.geometry, options_for_core(options, plc), tell)
+        except MeshCancelled:
+            raise
+        except MeshError as error:
+            pieces = converted.apart(plc) if converted and error.code not in HOPELESS else []
+            if not pieces:
+                raise joining.renamed(error, plc) from None
+            warnings += [
+                *plc.warnings,
+                "%s; so the solids were meshed one by one, and their meshes do not "
+                "fit together where they touch" % joining.renamed(error, plc),
+            ]
+            waiting[:0] = pieces
+            continue
+        done.append(plc)
+        results.append(result)
+        warnings += plc.warnings
+    return joining.join(results, done), warnings
+
+
+HOPELESS = ("too_many_elements", "out_of_memory", "bad_size", "bad_region")  # with any of the solids
+
+
+def _share(report, start, share):
+    """The report of one of several parts of the work."""
+    return report and (lambda stage, fraction: report(stage, start + share * fraction))
 
 
 @contextmanager
@@ -80,17 +120,17 @@ def read(path):
     return read_surface(path)
 
 
-def to_plc(source, options):
-    """(Plc, shape or None, aliases or None) of whatever is to be meshed."""
+def to_plcs(source, options, keep=()):
+    """([Plc, ...], shape or None, ShapePlc or None) of whatever is to be meshed."""
     if isinstance(source, Plc):
         source.check()
-        return source, None, None
+        return [source], None, None
     if isinstance(source, Surface):
         points, triangles, labels, holes, nested = source
         plc = Plc.from_triangles(points, triangles, labels, holes=holes, nested=nested)
-        return plc, None, None
+        return [plc], None, None
     if isinstance(source, (tuple, list)) and len(source) == 2:
-        return Plc.from_triangles(np.asarray(source[0]), np.asarray(source[1])), None, None
+        return [Plc.from_triangles(np.asarray(source[0]), np.asarray(source[1]))], None, None
     if hasattr(source, "Shape"):
         source = source.Shape
     if not hasattr(source, "Faces"):
@@ -102,8 +142,8 @@ def to_plc(source, options):
         )
     from . import document
 
-    converted = document.convert(source, options)
-    return converted.plc, source, converted.aliases
+    converted = document.convert(source, options, keep)
+    return list(converted.plcs), source, converted
 
 
 def options_for_core(options, plc):

@@ -39,6 +39,8 @@ class Plc:
     solid_count: int
     geometry: Optional[Dict[str, Any]] = None
     warnings: List[str] = field(default_factory=list)
+    solid_numbers: Any = None  # of some solids of a part only: their numbers there (1-based)
+    cad_solid_count: int = 0  # and how many there are
 
     _SHAPES = (
         ("points", np.float64, (-1, 3)),

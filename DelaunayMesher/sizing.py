@@ -79,7 +79,7 @@ def sizes_by_name(sizes, plc):
         "Face": len(plc.face_solids),
         "Edge": plc.edge_count,
         "Vertex": plc.vertex_count,
-        "Solid": plc.solid_count,
+        "Solid": plc.cad_solid_count or plc.solid_count,
     }
     arrays = {kind: np.full(count, np.inf) for kind, count in counts.items()}
     for name, size in sizes.items():
@@ -91,6 +91,8 @@ def sizes_by_name(sizes, plc):
                 name,
             )
         arrays[kind][number - 1] = size
+    if plc.solid_numbers is not None:
+        arrays["Solid"] = arrays["Solid"][plc.solid_numbers - 1]
     return {kind.lower() + "_size": array for kind, array in arrays.items()}
 
 

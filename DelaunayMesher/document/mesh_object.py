@@ -10,11 +10,10 @@ import time
 import Fem  # noqa: F401  registers the document types; without it the better type below is not known
 import FreeCAD
 
-from ..errors import InputError, MeshCancelled
+from ..errors import InputError
 from . import references
 from .femmesh import fem_mesh
 from .placement import shape_to_mesh
-from .plc_from_shape import convert
 from .properties import add_option_properties, get_options, set_options
 
 TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")  # from FreeCAD 1.0; before
@@ -184,19 +183,10 @@ def run(target, report=None, **extra):
 
 
 def mesh_shape(shape, options, report=None, keep=()):
-    """Mesh of a Part shape; the time of the conversion counts as stage 'plc'."""
+    """Mesh of a Part shape (pipeline.run); keep: names of seams and smooth vertices to keep."""
     from .. import pipeline
 
-    start = time.perf_counter()
-    if report and not report("plc", 0.0):
-        raise MeshCancelled("plc")
-    converted = convert(shape, options, keep)
-    taken = time.perf_counter() - start
-    mesh = pipeline.run(converted.plc, options, report)
-    mesh.seconds = {**mesh.seconds, "plc": taken + mesh.seconds.get("plc", 0.0)}
-    mesh.total_seconds += taken
-    mesh.shape, mesh.aliases = shape, converted.aliases
-    return mesh
+    return pipeline.run(shape, options, report, keep)
 
 
 def store(target, mesh, filled):

@@ -4,28 +4,18 @@ Idea: OCC's own tessellation closes where surface meshers that work in (u, v) fa
 the core puts every node on the exact surface.  Its deflection follows the wanted element size.  Precondition:
 at least one solid.  Postcondition: the triangles enclose every solid; every segment is an edge of a triangle;
 seams of closed surfaces are no segments (unless asked for).  Cost: 2 to 10 microseconds per triangle beside
-OCC's own time. Limits: touching solids must have equal faces where they touch; self-intersections are left to
-the core to find.
+OCC's own time. Limits: self-intersections are left to the core to find.
 """
-
-from dataclasses import dataclass, replace
 
 import numpy as np
 import Part
 
 from ..errors import MeshError, entity_name
-from ..plc import Plc
 from ..sizing import AUTOMATIC_FRACTION
 from .closed import open_triangles, solid_volumes
-from .edge_geometry import edge_records
-from .face_geometry import SPHERE, TORUS, face_records, seam_is_smooth
+from .shape_plc import ShapePlc, face_names
 from .tessellation import face_sides, tessellate
-from .touching import (
-    Aliases,
-    merge_coincident_faces,
-    merge_coincident_segments,
-    segments_on_triangles,
-)
+from .touching import overlap
 
 LINEAR_SHARE = 0.02  # of the element size
 WALL_SHARE = 0.1  # of the thickness of the thinnest solid
@@ -35,17 +25,12 @@ ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
 ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (4.0, 1.6))
 
 
-@dataclass
-class ShapePlc:
-    """A PLC and its aliases: CAD elements whose triangles another element carries (dropped -> kept)."""
-
-    plc: Plc
-    aliases: Aliases
-
-
 def plc_from_shape(shape, options=None, keep=()):
-    """The Plc of a Part shape; see convert().  Raises MeshError (stage 'plc')."""
-    return convert(shape, options, keep).plc
+    """The Plc of a Part shape; see convert().  Raises MeshError (stage 'plc'), also for overlapping faces."""
+    converted = convert(shape, options, keep)
+    if len(converted.plcs) > 1:
+        raise overlap(*converted.contacts.conflicts[0])
+    return converted.plcs[0]
 
 
 def convert(shape, options=None, keep=()):
@@ -61,7 +46,10 @@ def convert(shape, options=None, keep=()):
     for linear_factor, angular_factor in ATTEMPTS:
         mesh, sides, fault = attempt(shape, linear * linear_factor, angular * angular_factor)
         if not fault:
-            return assemble(*finer_for_walls(shape, mesh, sides, linear * linear_factor, angular), keep)
+            mesh, sides = finer_for_walls(shape, mesh, sides, linear * linear_factor, angular)
+            warnings = []
+            sides = outward(mesh, sides, warnings)
+            return ShapePlc(mesh, sides, keep, warnings)
         faults = faults or (mesh, *fault)
         if not shape.isValid():  # another tessellation will not mend it
             break
@@ -130,55 +118,6 @@ def deflections(shape, options):
     return linear, max(angular, FINEST_ANGULAR)
 
 
-def assemble(mesh, sides, keep):
-    """ShapePlc from a closed tessellation."""
-    warnings = []
-    sides = outward(mesh, sides, warnings)
-    aliases = Aliases()
-    loose = (sides[mesh.triangle_face] == 0).all(axis=1)
-    if loose.any():
-        names = face_names(mesh.triangle_face[loose])
-        warnings.append("faces that belong to no solid are left out: %s" % names)
-    triangles, triangle_face, face_solids = merge_coincident_faces(
-        mesh.triangles[~loose], mesh.triangle_face[~loose], sides, mesh.points, aliases
-    )
-    tolerances = [position_tolerance(face) for face in mesh.faces]
-    kinds, params, spline, surfaces, doubtful = face_records(mesh.faces, mesh.face_nodes, tolerances)
-    if doubtful:
-        warnings.append("no exact surface for %s: its facets are used" % face_names(doubtful))
-    seam, corner = features(mesh, kinds, keep)
-    curve_kinds, curve_params, curve_spline, curves, _ = edge_records(mesh.edges, wanted_edges(mesh, seam))
-
-    live = ~seam[mesh.segment_edge] & segments_on_triangles(mesh.segments, triangles, len(mesh.points))
-    segments, segment_edge = merge_coincident_segments(mesh.segments[live], mesh.segment_edge[live], aliases)
-    corners, corner_vertex = corner_points(mesh.vertex_point, corner, triangles, aliases)
-    plc = Plc(
-        points=mesh.points,
-        triangles=triangles,
-        triangle_face=triangle_face,
-        segments=segments,
-        segment_edge=segment_edge,
-        corners=corners,
-        corner_vertex=corner_vertex,
-        face_solids=face_solids,
-        edge_count=len(mesh.edges),
-        vertex_count=len(mesh.vertex_point),
-        solid_count=len(mesh.shape.Solids),
-        geometry={
-            "face_kind": kinds,
-            "face_params": params,
-            "face_spline": spline,
-            "edge_kind": curve_kinds,
-            "edge_params": curve_params,
-            "edge_spline": curve_spline,
-            "spline_surfaces": surfaces,
-            "spline_curves": curves,
-        },
-        warnings=warnings,
-    )
-    return ShapePlc(drop_unused_points(plc), aliases)
-
-
 def outward(mesh, sides, warnings):
     """Sides with inside-out solids (negative volume) turned round."""
     count = len(mesh.shape.Solids)
@@ -198,71 +137,6 @@ def outward(mesh, sides, warnings):
             )
         sides = flipped
     return sides
-
-
-def position_tolerance(face):
-    """How far (mm) tessellation nodes may lie off the surface: as far as the face's own edges do."""
-    return max(1e-7, 2.0 * face.getTolerance(1, Part.Edge), 2.0 * face.getTolerance(1, Part.Vertex))
-
-
-def features(mesh, kinds, keep):
-    """(E,) bool: smooth seams to be dropped; (V,) bool: vertices that are features."""
-    seam = np.zeros(len(mesh.edges), dtype=bool)
-    sharp_tip = set()
-    for number, face in mesh.seam_faces.items():
-        smooth = mesh.edge_faces[number] == [face] and seam_is_smooth(
-            mesh.edges[number], mesh.faces[face], kinds[face]
-        )
-        seam[number] = smooth and entity_name(1, number) not in keep
-    tips = np.zeros(len(mesh.vertex_point), dtype=bool)
-    touched = np.zeros(int(mesh.vertex_point.max(initial=-1)) + 1, dtype=bool)
-    dropped = np.isin(mesh.segment_edge, np.flatnonzero(seam))
-    ends = mesh.segments[~dropped].reshape(-1)
-    touched[ends[ends < len(touched)]] = True
-    for number, edge in enumerate(mesh.edges):
-        if edge.Degenerated and not all(kinds[face] in (SPHERE, TORUS) for face in mesh.edge_faces[number]):
-            sharp_tip.add(edge.Vertexes[0].hashCode())
-    seams_only = ~touched[mesh.vertex_point]
-    for number, vertex in enumerate(mesh.shape.Vertexes):
-        tips[number] = vertex.hashCode() in sharp_tip or entity_name(0, number) in keep
-    return seam, ~seams_only | tips
-
-
-def wanted_edges(mesh, seam):
-    """(E,) bool: edges that need their curve."""
-    wanted = np.zeros(len(mesh.edges), dtype=bool)
-    wanted[mesh.segment_edge] = True
-    return wanted & ~seam
-
-
-def corner_points(vertex_point, is_feature, triangles, aliases):
-    """(corners, corner_vertex): one vertex per point; vertices that coincide become aliases."""
-    used = np.isin(vertex_point, triangles.reshape(-1)) & is_feature
-    vertices = np.flatnonzero(used)
-    corners, first, inverse = np.unique(vertex_point[vertices], return_index=True, return_inverse=True)
-    for vertex, kept in zip(vertices.tolist(), vertices[first][inverse.reshape(-1)].tolist()):
-        if vertex != kept:
-            aliases.vertices[vertex] = kept
-    return corners, vertices[first]
-
-
-def drop_unused_points(plc):
-    """The same PLC with points that no triangle uses left out."""
-    used, compact = np.unique(plc.triangles, return_inverse=True)
-    return replace(
-        plc,
-        points=plc.points[used],
-        triangles=compact.reshape(-1, 3),
-        segments=np.searchsorted(used, plc.segments),
-        corners=np.searchsorted(used, plc.corners),
-    )
-
-
-def face_names(faces):
-    """'Face1, Face7, ... (12 in all)' for a message."""
-    numbers = sorted({int(face) for face in faces})
-    text = ", ".join(entity_name(2, number) for number in numbers[:5])
-    return text if len(numbers) <= 5 else "%s, ... (%d in all)" % (text, len(numbers))
 
 
 def open_shape(shape, mesh, rows, edges):

@@ -32,15 +32,20 @@ class Preview:
 def preview(shape, options, keep=()):
     """The Preview of a Part shape with a MeshOptions.  Raises MeshError as a run would."""
     core = extension.load()
-    plc = convert(shape, options, keep).plc
+    plcs = convert(shape, options, keep).plcs
     if options.max_size is None:
-        options = options.with_changes(max_size=sizing.automatic_max_size(plc.points))
-    points, triangles = finer(plc.points, plc.triangles, FINEST_SHARE * sizing.diagonal(plc.points))
-    samples, weights = inner_samples(plc)
-    places = np.ascontiguousarray(np.concatenate([points, samples]))
-    sizes = core.sizes(plc.as_dict(), plc.geometry, pipeline.options_for_core(options, plc), places)
-    count = float((weights / (VOLUME_SHARE * sizes[len(points) :] ** 3)).sum())
-    return Preview(count, points, triangles, sizes[: len(points)])
+        everything = np.concatenate([plc.points for plc in plcs])
+        options = options.with_changes(max_size=sizing.automatic_max_size(everything))
+    count, blocks, starts = 0.0, [], 0
+    for plc in plcs:
+        points, triangles = finer(plc.points, plc.triangles, FINEST_SHARE * sizing.diagonal(plc.points))
+        samples, weights = inner_samples(plc)
+        places = np.ascontiguousarray(np.concatenate([points, samples]))
+        sizes = core.sizes(plc.as_dict(), plc.geometry, pipeline.options_for_core(options, plc), places)
+        count += float((weights / (VOLUME_SHARE * sizes[len(points) :] ** 3)).sum())
+        blocks.append((points, triangles + starts, sizes[: len(points)]))
+        starts += len(points)
+    return Preview(count, *(np.concatenate(block) for block in zip(*blocks)))
 
 
 def finer(points, triangles, length):

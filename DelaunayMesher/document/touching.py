@@ -1,15 +1,19 @@
-"""Solids that touch without sharing a face (a plain compound): coincident faces become one interface.
+"""Solids that touch without sharing a face (a plain compound): equal faces become one interface.
 
-Where the triangulations of two coincident faces agree, one face keeps the triangles, with a solid on each
-side, and the other becomes its alias.  Where they agree only in part the faces overlap, and the shape has to
-be cut first.
+Two faces are equal when their triangles are, or when their outlines are and one lies on the other (OCC cuts
+the two into triangles differently then).  One of them keeps its triangles, with a solid on each side, and the
+other becomes its alias.  Faces that overlap otherwise are conflicts: their solids cannot be in one PLC.
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
+import Part
+from FreeCAD import Vector
 
 from ..errors import MeshError, entity_name
+
+SAMPLES = 3  # points of a face that must lie on its twin
 
 
 @dataclass
@@ -21,37 +25,136 @@ class Aliases:
     vertices: dict = field(default_factory=dict)
 
 
-def merge_coincident_faces(triangles, triangle_face, sides, points, aliases):
-    """Triangle arrays and sides (F, 2) without duplicates; fills `aliases.faces`.
+@dataclass
+class Contacts:
+    """How faces of different solids touch: `equal` (first, second, mirrored) faces that can become one,
+    `conflicts` (first, second, place) that overlap otherwise, `folded` rows of triangles to leave out."""
 
-    Raises MeshError 'overlapping_faces' when two faces share some triangles only, or lie on the same side.
-    """
+    equal: list
+    conflicts: list
+    folded: np.ndarray
+
+
+def find_contacts(mesh, sides):
+    """Contacts of a Tessellation with sides (F, 2).  Cost: O(m log m), and a few distances per twin."""
+    triangles, owner = mesh.triangles, mesh.triangle_face
     partner = coincident_triangles(triangles)
     doubled = np.flatnonzero(partner > np.arange(len(triangles)))
-    keep = np.ones(len(triangles), dtype=bool)
-    sides = sides.copy()
-    size = np.bincount(triangle_face, minlength=len(sides))
-    pairs = np.stack([triangle_face[doubled], triangle_face[partner[doubled]]], axis=1)
-    for first, second in np.unique(pairs, axis=0):
-        rows = doubled[(pairs == (first, second)).all(axis=1)]
-        place = points[triangles[rows[0]]].mean(axis=0)
-        if first == second:
-            keep[rows] = keep[partner[rows]] = False  # the face folds back onto itself: nothing is inside
+    size = np.bincount(owner, minlength=len(sides))
+    pairs = np.stack([owner[doubled], owner[partner[doubled]]], axis=1)
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    starts = np.flatnonzero(np.diff(pairs[order], axis=0, prepend=-1).any(axis=1))
+    twins = find_twins(mesh, sides) if len(mesh.shape.Solids) > 1 else {}
+    contacts = Contacts([], [], np.zeros(len(triangles), dtype=bool))
+    for rows in np.split(doubled[order], starts[1:]) if len(starts) else ():
+        first, second = int(owner[rows[0]]), int(owner[partner[rows[0]]])
+        if not sides[first].any() or not sides[second].any():
+            continue  # a face of no solid: it is left out
+        if first == second:  # the face folds back onto itself: nothing is inside
+            contacts.folded[rows] = contacts.folded[partner[rows]] = True
+        elif len(rows) == size[first] == size[second]:
+            twins[first, second] = opposite(triangles[rows], triangles[partner[rows]])
+        elif (first, second) in twins or (second, first) in twins:
             continue
-        if len(rows) != size[first] or len(rows) != size[second]:
-            if solid_of(sides[first]) == solid_of(sides[second]):
-                keep[rows] = keep[partner[rows]] = False  # a sliver of the solid without thickness
-                continue
-            raise overlap(first, second, place)
-        mirrored = opposite(triangles[rows], triangles[partner[rows]])
+        elif solid_of(sides[first]) and solid_of(sides[first]) == solid_of(sides[second]):
+            contacts.folded[rows] = contacts.folded[partner[rows]] = True  # a sliver without thickness
+        else:
+            contacts.conflicts.append((first, second, mesh.points[triangles[rows[0]]].mean(axis=0)))
+    for (first, second), mirrored in sorted(twins.items()):
         other = sides[second][::-1] if mirrored else sides[second]
-        merged = np.where(sides[first] == 0, other, sides[first])
         if ((sides[first] != 0) & (other != 0)).any():
-            raise overlap(first, second, place)
-        sides[first], sides[second] = merged, 0
-        aliases.faces[int(second)] = int(first)
-        keep[partner[rows]] = False
-    return triangles[keep], triangle_face[keep], sides
+            place = mesh.points[triangles[owner == first][0]].mean(axis=0)
+            contacts.conflicts.append((first, second, place))
+        else:
+            contacts.equal.append((first, second, mirrored))
+    return contacts
+
+
+def find_twins(mesh, sides):
+    """{(first, second): whether their normals are opposite} of faces with equal outlines and surfaces."""
+    count = len(mesh.points)
+    start = mesh.triangles.reshape(-1)
+    end = np.roll(mesh.triangles, -1, axis=1).reshape(-1)
+    owner = np.repeat(mesh.triangle_face, 3)
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    _, inverse, uses = np.unique(
+        (owner * count + low) * count + high, return_inverse=True, return_counts=True
+    )
+    outline = (uses[inverse.reshape(-1)] == 1) & ((sides[owner] == 0).sum(axis=1) == 1)
+    owner, key, ahead = owner[outline], (low * count + high)[outline], (start < end)[outline]
+    order = np.lexsort((key, owner))
+    owner, key, ahead = owner[order], key[order], ahead[order]
+    known, twins = {}, {}
+    faces, starts = np.unique(owner, return_index=True)
+    for face, keys, directions in zip(faces.tolist(), np.split(key, starts[1:]), np.split(ahead, starts[1:])):
+        same = known.setdefault(keys.tobytes(), [])
+        for other, its_directions in same:
+            if lies_on(mesh.faces[face], mesh.faces[other], facet_centres(mesh, face)):
+                twins[other, face] = bool(directions[0] != its_directions[0])
+                break
+        same.append((face, directions))
+    return twins
+
+
+def facet_centres(mesh, face):
+    """A few centres of the face's triangles."""
+    rows = np.flatnonzero(mesh.triangle_face == face)
+    rows = rows[:: max(1, len(rows) // SAMPLES)][:SAMPLES]
+    return mesh.points[mesh.triangles[rows]].mean(axis=1)
+
+
+def lies_on(face, other, places):
+    """Whether the points of `face` nearest to some places lie on the other face, within their tolerances."""
+    tolerance = 2.0 * max(face.Tolerance, other.Tolerance, *(edge.Tolerance for edge in other.Edges))
+    try:
+        surface = face.Surface
+        for place in places.tolist():
+            point = surface.value(*surface.parameter(Vector(*place)))
+            if other.distToShape(Part.Vertex(point))[0] > tolerance:
+                return False
+    except (RuntimeError, TypeError, ValueError):  # a kind of surface that FreeCAD has no class for
+        return False
+    return True
+
+
+def merge_equal_faces(equal, triangle_face, sides, aliases):
+    """(rows to keep (m,) bool, sides) with the second of each equal pair given up; fills `aliases.faces`."""
+    sides = sides.copy()
+    dropped = np.zeros(len(sides), dtype=bool)
+    for first, second, mirrored in equal:
+        other = sides[second][::-1] if mirrored else sides[second]
+        if not sides[first].any() or not other.any() or ((sides[first] != 0) & (other != 0)).any():
+            continue
+        sides[first], sides[second] = np.where(sides[first] == 0, other, sides[first]), 0
+        aliases.faces[second] = first
+        dropped[second] = True
+    return ~dropped[triangle_face], sides
+
+
+def groups_of_solids(solid_count, sides, contacts):
+    """Lists of solids (1-based) that are meshed together, one list when nothing overlaps.
+
+    With conflicts: solids that share a face stay together, then those with equal faces as long as no two of a
+    group are in conflict.  Raises MeshError when solids that share a face overlap elsewhere.
+    """
+    if not contacts.conflicts:
+        return [list(range(1, solid_count + 1))]
+    group = np.arange(solid_count + 1)
+    shared = sides[(sides > 0).all(axis=1) & (sides[:, 0] != sides[:, 1])]
+    for a, b in shared.tolist():
+        group[group == group[b]] = group[a]
+    enemies = np.zeros((solid_count + 1, solid_count + 1), dtype=bool)
+    for first, second, place in contacts.conflicts:
+        for a in sides[first][sides[first] > 0]:
+            for b in sides[second][sides[second] > 0]:
+                if group[a] == group[b]:
+                    raise overlap(first, second, place)
+                enemies[a, b] = enemies[b, a] = True
+    for first, second, _ in contacts.equal:
+        a, b = sides[first].max(), sides[second].max()
+        if group[a] != group[b] and not enemies[np.ix_(group == group[a], group == group[b])].any():
+            group[group == group[b]] = group[a]
+    return [(np.flatnonzero(group[1:] == number) + 1).tolist() for number in np.unique(group[1:])]
 
 
 def coincident_triangles(triangles):
@@ -85,8 +188,8 @@ def overlap(first, second, place):
     return MeshError(
         "plc",
         "overlapping_faces",
-        "%s and %s overlap without being one face. Cut the touching solids with Boolean Fragments "
-        "(mode CompSolid) and mesh the result" % names,
+        "%s and %s overlap without being one face, and their solids share another. Cut the solids with "
+        "Boolean Fragments (mode CompSolid) and mesh the result" % names,
         place=place,
         entity=names[0],
         other=names[1],

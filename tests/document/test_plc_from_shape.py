@@ -207,12 +207,59 @@ def test_touching_solids_of_a_compound_become_one_interface():
     assert converted.plc.face_solids.tolist().count([0, 0]) == 1
 
 
-def test_partly_touching_solids_are_refused():
+def partly_touching():
     first, second = Part.makeBox(10, 10, 10), Part.makeBox(10, 5, 10, Vector(10, 0, 0))
     cut = Part.makeBox(10, 5, 10).fuse(Part.makeBox(10, 5, 10, Vector(0, 5, 0)))  # the same corners
+    return Part.makeCompound([cut.removeSplitter().Solids[0], second, first.Solids[0]])
+
+
+def test_solids_that_overlap_are_no_single_plc():
     with pytest.raises(MeshError, match="overlap") as caught:
-        plc_from_shape(Part.makeCompound([cut.removeSplitter().Solids[0], second, first.Solids[0]]))
+        plc_from_shape(partly_touching())
     assert caught.value.stage == "plc" and caught.value.entity and caught.value.place
+
+
+def test_solids_that_overlap_become_plcs_of_their_own():
+    shape = partly_touching()
+    converted = convert(shape)
+    assert len(converted.plcs) > 1
+    assert sorted(number for plc in converted.plcs for number in plc.solid_numbers) == [1, 2, 3]
+    for plc in converted.plcs:
+        check_closed(plc)
+        assert volumes(plc) == pytest.approx([shape.Solids[n - 1].Volume for n in plc.solid_numbers])
+        assert plc.edge_count == len(shape.Edges) and len(plc.face_solids) == len(shape.Faces)
+    assert any("Boolean Fragments" in text for plc in converted.plcs for text in plc.warnings)
+
+
+@pytest.mark.parametrize("angle", [0.0, 100.0])
+def test_equal_faces_with_other_triangles_become_one_interface(angle):
+    outer = Part.makeCylinder(10, 8).cut(Part.makeCylinder(5, 8)).Solids[0]
+    inner = Part.makeCylinder(5, 8)
+    inner.Placement = Placement(Vector(0, 0, 0), Rotation(Vector(0, 0, 1), angle))
+    sphere = Part.makeSphere(5, Vector(0, 0, 20), Vector(0, 0, 1), 0, 90)
+    below = Part.makeCylinder(5, 4, Vector(0, 0, 16))  # its top has the outline of the half sphere as well
+    converted = convert(Part.makeCompound([outer, inner, sphere, below]), MeshOptions(max_size=2.0))
+    if angle == 0.0:
+        assert len(converted.plcs) == 1
+        check_closed(converted.plcs[0])
+        assert len(converted.aliases.faces) == 2
+        assert volumes(converted.plcs[0]) == pytest.approx(
+            [600 * math.pi, 200 * math.pi, 250 / 3 * math.pi, 100 * math.pi], rel=0.02
+        )
+    for plc in converted.plcs:
+        check_closed(plc)
+
+
+def test_solids_are_taken_apart_on_demand():
+    first, second = Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(10, 0, 0))
+    converted = convert(Part.makeCompound([first, second]))
+    assert len(converted.plcs) == 1 and converted.aliases.faces
+    pieces = converted.apart(converted.plcs[0])
+    assert len(pieces) == 2 and converted.plcs == pieces and not converted.aliases.faces
+    for plc in pieces:
+        check_closed(plc)
+        assert volumes(plc) == pytest.approx([1000])
+        assert converted.apart(plc) == []
 
 
 def test_an_inside_out_solid_is_turned_round():

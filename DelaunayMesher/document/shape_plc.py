@@ -1,0 +1,232 @@
+"""A closed tessellation -> PLCs: one, or several when solids overlap.
+
+Solids that touch on equal faces share an interface.  Solids whose faces overlap otherwise go into different
+PLCs, which are meshed one after the other: their meshes do not fit together where they touch.  All PLCs count
+faces, edges and vertices as the whole shape does.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import Part
+
+from ..errors import entity_name
+from ..plc import Plc
+from .edge_geometry import edge_records
+from .face_geometry import SPHERE, TORUS, face_records, seam_is_smooth
+from .touching import (
+    Aliases,
+    find_contacts,
+    groups_of_solids,
+    merge_coincident_segments,
+    merge_equal_faces,
+    segments_on_triangles,
+)
+
+NAMED = 5  # elements named in a message
+
+
+class ShapePlc:
+    """The PLCs of a shape, in `plcs`; `aliases`: CAD elements whose triangles another element carries."""
+
+    def __init__(self, mesh, sides, keep, warnings):
+        """mesh: a Tessellation that encloses its solids; sides (F, 2); keep: names of seams that stay."""
+        self.mesh, self.sides = mesh, sides
+        self.contacts = find_contacts(mesh, sides)
+        self.geometry = Geometry(mesh, keep)
+        solids = len(mesh.shape.Solids)
+        self._aliases = {}
+        self.plcs = [self.plc_of(group) for group in groups_of_solids(solids, sides, self.contacts)]
+        warnings = [*warnings, *self.geometry.warnings]
+        loose = (sides[mesh.triangle_face] == 0).all(axis=1)
+        if loose.any():
+            names = face_names(mesh.triangle_face[loose])
+            warnings.append("faces that belong to no solid are left out: %s" % names)
+        if len(self.plcs) > 1:
+            warnings.append(apart_warning(self.contacts.conflicts))
+        self.plcs[0].warnings[:0] = warnings
+
+    @property
+    def plc(self):
+        """The first PLC: the only one, unless faces overlap."""
+        return self.plcs[0]
+
+    @property
+    def aliases(self):
+        """The Aliases of all PLCs."""
+        result = Aliases()
+        for aliases in self._aliases.values():
+            result.faces.update(aliases.faces)
+            result.edges.update(aliases.edges)
+            result.vertices.update(aliases.vertices)
+        return result
+
+    def apart(self, plc):
+        """Replace a PLC by one for each of its solids, those that share a face together; [] if it is one."""
+        solids = plc.solid_numbers.tolist()
+        group = {solid: solid for solid in solids}
+        for a, b in self.sides[(self.sides > 0).all(axis=1)].tolist():
+            if a in group and b in group and group[a] != group[b]:
+                old, new = group[b], group[a]
+                group = {solid: new if number == old else number for solid, number in group.items()}
+        numbers = sorted(set(group.values()))
+        if len(numbers) == 1:
+            return []
+        del self._aliases[solids[0]]
+        pieces = [self.plc_of([s for s in solids if group[s] == number]) for number in numbers]
+        place = next(index for index, item in enumerate(self.plcs) if item is plc)
+        self.plcs[place : place + 1] = pieces
+        return pieces
+
+    def plc_of(self, solids):
+        """The Plc of some solids (1-based numbers)."""
+        mesh, aliases = self.mesh, Aliases()
+        self._aliases[solids[0]] = aliases
+        local = np.zeros(len(mesh.shape.Solids) + 1, dtype=np.int64)
+        local[solids] = np.arange(1, len(solids) + 1)
+        sides = local[self.sides]
+        mine, sides = merge_equal_faces(self.contacts.equal, mesh.triangle_face, sides, aliases)
+        mine &= ~self.contacts.folded & sides[mesh.triangle_face].any(axis=1)
+        triangles, triangle_face = mesh.triangles[mine], mesh.triangle_face[mine]
+        geometry = self.geometry
+        live = ~geometry.seam[mesh.segment_edge]
+        live &= segments_on_triangles(mesh.segments, triangles, len(mesh.points))
+        segments, segment_edge = merge_coincident_segments(
+            mesh.segments[live], mesh.segment_edge[live], aliases
+        )
+        corners, corner_vertex = corner_points(mesh.vertex_point, geometry.corner, triangles, aliases)
+        plc = Plc(
+            points=mesh.points,
+            triangles=triangles,
+            triangle_face=triangle_face,
+            segments=segments,
+            segment_edge=segment_edge,
+            corners=corners,
+            corner_vertex=corner_vertex,
+            face_solids=sides,
+            edge_count=len(mesh.edges),
+            vertex_count=len(mesh.vertex_point),
+            solid_count=len(solids),
+            geometry=geometry.of(triangle_face, segment_edge),
+            solid_numbers=np.array(solids),
+            cad_solid_count=len(mesh.shape.Solids),
+        )
+        return drop_unused_points(plc)
+
+
+class Geometry:
+    """Exact faces and edges of a tessellated shape, and which of its edges and vertices are features."""
+
+    def __init__(self, mesh, keep):
+        tolerances = [position_tolerance(face) for face in mesh.faces]
+        self.faces = face_records(mesh.faces, mesh.face_nodes, tolerances)
+        doubtful = self.faces[4]
+        self.warnings = []
+        if doubtful:
+            self.warnings.append("no exact surface for %s: its facets are used" % face_names(doubtful))
+        self.seam, self.corner = features(mesh, self.faces[0], keep)
+        self.edges = edge_records(mesh.edges, wanted_edges(mesh, self.seam))
+
+    def of(self, faces, edges):
+        """The dict of the core with the splines of some faces and edges only."""
+        kinds, params, spline, surfaces = self.faces[:4]
+        curve_kinds, curve_params, curve_spline, curves = self.edges[:4]
+        kinds, spline, surfaces = only(kinds, spline, surfaces, faces)
+        curve_kinds, curve_spline, curves = only(curve_kinds, curve_spline, curves, edges)
+        return {
+            "face_kind": kinds,
+            "face_params": params,
+            "face_spline": spline,
+            "edge_kind": curve_kinds,
+            "edge_params": curve_params,
+            "edge_spline": curve_spline,
+            "spline_surfaces": surfaces,
+            "spline_curves": curves,
+        }
+
+
+def only(kinds, spline, records, used):
+    """(kinds, spline, records) of used elements; the kind of the others is 0, which needs no record."""
+    here = np.zeros(len(kinds), dtype=bool)
+    here[used] = True
+    kinds = np.where(here, kinds, 0).astype(np.int32)
+    wanted = np.where(here, spline, -1)
+    numbers = np.unique(wanted[wanted >= 0])
+    renumbered = np.where(wanted >= 0, np.searchsorted(numbers, wanted), -1).astype(np.int32)
+    return kinds, renumbered, [records[number] for number in numbers.tolist()]
+
+
+def apart_warning(conflicts):
+    """What to know about solids that are meshed apart."""
+    pairs = ["%s and %s" % (entity_name(2, a), entity_name(2, b)) for a, b, _ in conflicts[:NAMED]]
+    more = "" if len(conflicts) <= NAMED else ", ... (%d pairs in all)" % len(conflicts)
+    return (
+        "faces of different solids overlap without being one face, so the meshes of these solids do not fit "
+        "together there: %s%s. For a mesh that does, cut the part with Boolean Fragments (mode CompSolid)"
+        % (", ".join(pairs), more)
+    )
+
+
+def position_tolerance(face):
+    """How far (mm) tessellation nodes may lie off the surface: as far as the face's own edges do."""
+    return max(1e-7, 2.0 * face.getTolerance(1, Part.Edge), 2.0 * face.getTolerance(1, Part.Vertex))
+
+
+def features(mesh, kinds, keep):
+    """(E,) bool: smooth seams to be dropped; (V,) bool: vertices that are features."""
+    seam = np.zeros(len(mesh.edges), dtype=bool)
+    sharp_tip = set()
+    for number, face in mesh.seam_faces.items():
+        smooth = mesh.edge_faces[number] == [face] and seam_is_smooth(
+            mesh.edges[number], mesh.faces[face], kinds[face]
+        )
+        seam[number] = smooth and entity_name(1, number) not in keep
+    tips = np.zeros(len(mesh.vertex_point), dtype=bool)
+    touched = np.zeros(int(mesh.vertex_point.max(initial=-1)) + 1, dtype=bool)
+    dropped = np.isin(mesh.segment_edge, np.flatnonzero(seam))
+    ends = mesh.segments[~dropped].reshape(-1)
+    touched[ends[ends < len(touched)]] = True
+    for number, edge in enumerate(mesh.edges):
+        if edge.Degenerated and not all(kinds[face] in (SPHERE, TORUS) for face in mesh.edge_faces[number]):
+            sharp_tip.add(edge.Vertexes[0].hashCode())
+    seams_only = ~touched[mesh.vertex_point]
+    for number, vertex in enumerate(mesh.shape.Vertexes):
+        tips[number] = vertex.hashCode() in sharp_tip or entity_name(0, number) in keep
+    return seam, ~seams_only | tips
+
+
+def wanted_edges(mesh, seam):
+    """(E,) bool: edges that need their curve."""
+    wanted = np.zeros(len(mesh.edges), dtype=bool)
+    wanted[mesh.segment_edge] = True
+    return wanted & ~seam
+
+
+def drop_unused_points(plc):
+    """The same PLC with points that no triangle uses left out."""
+    used, compact = np.unique(plc.triangles, return_inverse=True)
+    return replace(
+        plc,
+        points=plc.points[used],
+        triangles=compact.reshape(-1, 3),
+        segments=np.searchsorted(used, plc.segments),
+        corners=np.searchsorted(used, plc.corners),
+    )
+
+
+def corner_points(vertex_point, is_feature, triangles, aliases):
+    """(corners, corner_vertex): one vertex per point; vertices that coincide become aliases."""
+    used = np.isin(vertex_point, triangles.reshape(-1)) & is_feature
+    vertices = np.flatnonzero(used)
+    corners, first, inverse = np.unique(vertex_point[vertices], return_index=True, return_inverse=True)
+    for vertex, kept in zip(vertices.tolist(), vertices[first][inverse.reshape(-1)].tolist()):
+        if vertex != kept:
+            aliases.vertices[vertex] = kept
+    return corners, vertices[first]
+
+
+def face_names(faces):
+    """'Face1, Face7, ... (12 in all)' for a message."""
+    numbers = sorted({int(face) for face in faces})
+    text = ", ".join(entity_name(2, number) for number in numbers[:NAMED])
+    return text if len(numbers) <= NAMED else "%s, ... (%d in all)" % (text, len(numbers))
