@@ -149,7 +149,7 @@ Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cav
       }
     if (cavity.tets.size() < inside + seen - first) cavity.tets.resize(2 * (inside + seen));
     inside = test(p, number, cavity, first, seen, inside);
-    if (kStopAtMarks) stopped = marked_inside({cavity.tets.data() + level, level_end - level});
+    if (kStopAtMarks) stopped = marked_inside({cavity.tets.data() + level_end, inside - level_end});
     for (std::size_t k = level_end; k < inside; ++k)
       if (!region(corners_[cavity.tets[k]])) stopped = kLeft;
     if (stopped == kLeft) break;
