@@ -1,6 +1,6 @@
 #include "sizing/boundary_tree.h"
 
-#include "sizing/source_tree.h"
+#include "sizing/size_source.h"
 
 namespace dm {
 

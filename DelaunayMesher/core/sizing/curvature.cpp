@@ -8,6 +8,7 @@ namespace dm {
 namespace {
 
 constexpr int kDeepestSplit = 6;
+constexpr double kBoundaryEdge = 0.8;           // length of boundary edges over the size
 constexpr double kFlat = 0.002, kCrease = 1.0;  // radians between facets that count as a curve
 constexpr double kSimilar = 1.25;               // sizes within this ratio need no further split of a triangle
 
@@ -49,18 +50,26 @@ class CurvatureSources {
     for (std::size_t t = 0; t < size.size(); ++t) {
       if (!(size[t] < options_.max_size)) continue;
       const auto [a, b, c] = plc_.triangles[t];
-      sources_.push_back({plc_.points[a], plc_.points[b], plc_.points[c], size[t], 3, true});
+      sources_.push_back(SizeSource::triangle({plc_.points[a], plc_.points[b], plc_.points[c]}, size[t],
+                                              empty_side(plc_, plc_.triangle_face[t])));
       triangle_size[t] = std::min(triangle_size[t], size[t]);
     }
   }
 
-  void add_segment(std::size_t s) {
-    const Index edge = plc_.segment_edge[s];
-    if (geometry_.is_line(edge)) return;
-    const auto [i, j] = plc_.segments[s];
-    const Vec3 a = plc_.points[i], b = plc_.points[j];
-    const double h = size_for(geometry_.edge_curvature(edge, 0.5 * (a + b)));
-    if (h < options_.max_size) sources_.push_back(SizeSource::segment(a, b, h));
+  // Curved edges, unless a face beside them asks for as much.
+  void add_segments(const std::vector<double>& triangle_size) {
+    std::vector<double> around(plc_.points.size(), HUGE_VAL);
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (const Index v : plc_.triangles[t]) around[v] = std::min(around[v], triangle_size[t]);
+    for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
+      const Index edge = plc_.segment_edge[s];
+      if (geometry_.is_line(edge)) continue;
+      const auto [i, j] = plc_.segments[s];
+      const Vec3 a = plc_.points[i], b = plc_.points[j];
+      const double h = size_for(geometry_.edge_curvature(edge, 0.5 * (a + b)));
+      if (h < options_.max_size && kSimilar * h < std::max(around[i], around[j]))
+        sources_.push_back(SizeSource::segment(a, b, h));
+    }
   }
 
  private:
@@ -94,7 +103,7 @@ class CurvatureSources {
   }
 
   double size_for(double curvature) const {
-    const double h = 2 * std::numbers::pi / (options_.elements_per_circle * curvature);
+    const double h = 2 * std::numbers::pi / (kBoundaryEdge * options_.elements_per_circle * curvature);
     return std::max(h, limits_.curvature);  // curvature 0 gives infinity, an apex (infinity) the limit
   }
 
@@ -119,11 +128,12 @@ class CurvatureSources {
     if (!(low < options_.max_size)) return centre;
     const double longest = std::sqrt(std::max({norm2(p[1] - p[0]), norm2(p[2] - p[1]), norm2(p[0] - p[2])}));
     if (high <= kSimilar * low || longest <= low) {
-      sources_.push_back({p[0], p[1], p[2], low, 3, true});
+      sources_.push_back(SizeSource::triangle(p, low, empty_side(plc_, face)));
       return centre;
     }
     if (depth == kDeepestSplit) {
-      sources_.push_back({p[0], p[1], p[2], std::min(centre, options_.max_size), 3, true});
+      sources_.push_back(
+          SizeSource::triangle(p, std::min(centre, options_.max_size), empty_side(plc_, face)));
       return centre;
     }
     std::array<Vec3, 3> q;
@@ -159,7 +169,7 @@ void add_curvature(const Plc& plc, const Geometry& geometry, const SizeOptions& 
     triangle_size[t] = std::min(triangle_size[t], curvature.add_triangle(t));
   }
   curvature.add_facets(triangle_size);
-  for (std::size_t s = 0; s < plc.segments.size(); ++s) curvature.add_segment(s);
+  curvature.add_segments(triangle_size);
 }
 
 }  // namespace dm

@@ -4,8 +4,9 @@
 
 namespace dm {
 
-Octree::Octree(const ExactField& field, const BoundaryTree& boundary, Context& context) {
-  Builder(*this, field, boundary, context).build();
+Octree::Octree(const FieldSources& field, const Plc& plc, const BoundaryTree& boundary, double domain_volume,
+               Context& context) {
+  Builder(*this, field, plc, boundary, context).build(domain_volume);
 }
 
 double Octree::at(const Vec3& p) const {

@@ -17,37 +17,70 @@ inline double interpolate(const std::array<float, 8>& v, double x, double y, dou
 
 class Octree::Builder {
  public:
-  Builder(Octree& tree, const ExactField& field, const BoundaryTree& boundary, Context& context);
-  void build();
+  Builder(Octree& tree, const FieldSources& field, const Plc& plc, const BoundaryTree& boundary,
+          Context& context);
+  void build(double domain_volume);
 
  private:
-  Vec3 point(std::uint32_t x, std::uint32_t y, std::uint32_t z) const;
-  Box box(const Cell& cell, std::uint32_t size) const;
-  float corner_value(std::uint32_t x, std::uint32_t y, std::uint32_t z, Place place, Index& hint);
-  bool must_split(Cell& cell, std::uint32_t size);
-  Place place(const Cell& cell, std::uint32_t size, Place parent, const Cell* siblings,
+  enum class Place : std::uint8_t { outside, inside, mixed };
+  using Corner = std::array<std::uint32_t, 3>;  // in units of the finest level
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  struct Cell {
+    Corner low;
+    std::uint32_t size;
+    Index node;
+    Place place;
+    Range triangles, sources;     // in lists_: those that touch the cell
+    std::array<Index, 8> corner;  // in corners_, from the second step on
+    std::uint32_t seen = 0;       // sweep in which it was last relaxed
+  };
+  struct CornerValue {
+    Corner at;
+    Index source = -1;
+    float value, cap;           // value: the field by its source; cap: by the rest
+    std::uint32_t changed = 1;  // sweep
+  };
+
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
+
+  Vec3 point(const Corner& c) const;
+  Box box(const Cell& cell) const;
+  double edge(const Cell& cell) const { return cell.size / tree_.scale_; }
+  // Of the items in a range of lists_, those whose item touches the box; appended to lists_.
+  template <class Touches>
+  Range filter(Range range, Touches&& touches);
+  bool split(Index cell);
+  Place place(const Cell& child, Place parent, const std::array<Cell, 8>& siblings,
               std::uint32_t number) const;
-  void split(const Cell& cell, std::uint32_t size, std::vector<Cell>& children);
-  void finish(const Cell& cell, std::uint32_t size);
+  bool too_coarse_for_sources(const Cell& cell) const;
+  void balance();
+  Index leaf_at(const Corner& c) const;
+  Index corner_at(const Corner& c);
+  void make_corners(Cell& cell);
+  bool relax(Index corner, Index source);
+  void sweep();
+  void refine_domain();
+  double lowest(const Cell& cell) const;
+  std::vector<float> corner_values() const;
+  void finish(double domain_volume);
   void make_table();
-  void integrate_mixed();
 
   Octree& tree_;
-  const ExactField& field_;
+  const FieldSources& field_;
+  const Plc& plc_;
   const BoundaryTree& boundary_;
   Context& context_;
-  // Corner values by position, so that neighbours ask the exact field once: open addressing, key 0 = free.
-  std::vector<std::uint64_t> keys_;
-  std::vector<float> known_;
-  std::size_t known_count_ = 0;
-  void grow();
-  // Leaves across the boundary: their weight if they were inside.
-  struct MixedLeaf {
-    std::array<std::uint32_t, 3> corner;
-    std::uint32_t size;
-    double weight;
-  };
-  std::vector<MixedLeaf> mixed_;
+  std::vector<Cell> cells_;   // the leaves
+  std::vector<Index> lists_;  // triangles of the PLC and sources, by cell
+  std::vector<Ball> balls_;   // around the sources
+  std::vector<CornerValue> corners_;
+  std::vector<Index> slots_;  // hash table of corners_ by position, open addressing, -1 = free
+  std::uint32_t sweep_ = 0;
 };
 
 }  // namespace dm

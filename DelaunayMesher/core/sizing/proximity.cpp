@@ -9,9 +9,9 @@ namespace dm {
 
 namespace {
 
-constexpr double kFree = 2.4, kTight = 1.8;  // size per width; see the header
-constexpr double kTightWithin = 2;           // the other side is tight up to this many widths
-constexpr double kOpposed = 0.5;             // cosine between ray and normal
+constexpr double kFree = 2.5, kTight = 1.85;  // size per width; see the header
+constexpr double kTightWithin = 2;            // the other side is tight up to this many widths
+constexpr double kOpposed = 0.966;            // cosine between ray and normal: 15 degrees
 constexpr int kDeepestSplit = 10;
 constexpr std::int64_t kMostPlaces = 150'000;
 // Walls and gaps may cost this many times the elements of the rest, and this many in any case.
@@ -25,6 +25,7 @@ struct Patch {
   double size;
   double curvature;  // of the two sides, the larger
   bool wall;
+  int empty_side;
 };
 
 class Prober {
@@ -90,9 +91,14 @@ class Prober {
   // Size by the widths on both sides of a place, infinity = none.
   double size_at(const Vec3& p) {
     ++places_;
-    const double range = kTightWithin * local_size_ / (kTight * per_width_);
+    const double range = local_size_ / (kTight * per_width_);  // beyond it, size is local_size_ or more
     const auto& solids = plc_.face_solids[face_];
-    const Width w[2] = {width(p, -normal_, range), width(p, normal_, range)};
+    Width w[2] = {width(p, -normal_, range), width(p, normal_, range)};
+    if (w[0].t == HUGE_VAL && w[1].t == HUGE_VAL) return HUGE_VAL;
+    // A wall may be tight by something farther away than a wall counts by itself.
+    for (int side = 0; side < 2; ++side)
+      if (w[side].t == HUGE_VAL && kTightWithin * w[1 - side].t > range)
+        w[side] = width(p, side == 0 ? -normal_ : normal_, kTightWithin * w[1 - side].t);
     double size = HUGE_VAL;
     for (int side = 0; side < 2; ++side) {
       const double t = w[side].t, behind = w[1 - side].t;
@@ -120,7 +126,7 @@ class Prober {
     const bool enough =
         found ? (even || edge <= 2 * low) && edge <= 16 * local_size_ : edge <= 4 * local_size_;
     if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
-      if (found) patches.push_back({p, low, curvature(middle), wall_});
+      if (found) patches.push_back({p, low, curvature(middle), wall_, empty_side(plc_, face_)});
       return;
     }
     const Vec3 q[3] = {0.5 * (p[0] + p[1]), 0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0])};
@@ -174,7 +180,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
                               const SizeOptions& options, const SizeLimits& limits,
                               const std::vector<double>& triangle_size, Context& context,
                               std::vector<SizeSource>& sources) {
-  ProximityResult result{options.max_size, HUGE_VAL};
+  ProximityResult result{options.max_size, HUGE_VAL, {}};
   if (!(options.elements_across > 0)) return result;
   Prober prober(plc, geometry, boundary, options);
   double others = 0;
@@ -197,10 +203,11 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
       size = std::min(
           size, std::max({std::sqrt(8 * t / (3 * patch.curvature)) / 0.8, patch.size, limits.crossing}));
     }
+    if (patch.wall) result.walls.push_back(patch.corner);
     result.wanted = std::min(result.wanted, patch.size);
     result.finest = std::min(result.finest, size);
     if (size < options.max_size)
-      sources.push_back({patch.corner[0], patch.corner[1], patch.corner[2], size, 3, true});
+      sources.push_back(SizeSource::triangle(patch.corner, size, patch.empty_side));
   }
   return result;
 }

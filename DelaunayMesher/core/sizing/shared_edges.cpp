@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sizing/source_tree.h"
+#include "sizing/size_source.h"
 
 namespace dm {
 

@@ -1,8 +1,10 @@
 #include "sizing/size_field.h"
 
 #include <cstdio>
+#include <unordered_set>
 
-#include "sizing/exact_field.h"
+#include "base/random.h"
+#include "sizing/field_sources.h"
 #include "sizing/octree.h"
 #include "sizing/proximity.h"
 #include "sizing/sources.h"
@@ -11,11 +13,9 @@ namespace dm {
 
 namespace {
 
-// Volume of an element of a mesh whose mean edge is h, over h^3: between the regular tetrahedron's 0.118 and
-// what random sites give.
-constexpr double kElementVolume = 0.106;
-// Elements beside the boundary are smaller, for its edges are 0.8 h: elements more per h^2 of boundary.
-constexpr double kBoundaryElements = 5;
+// Elements per volume / h^3 and per boundary area / h^2, and, per area / h^2 of each side, what a wall of one
+// or two layers has in addition; fitted to finished meshes.
+constexpr double kPerVolume = 8.47, kPerArea = 2.9, kPerWallArea = 3;
 
 double domain_volume(const Plc& plc) {
   double sixfold = 0;
@@ -62,6 +62,26 @@ std::vector<double> used_solid_sizes(const SizeOptions& options) {
   return sizes;
 }
 
+// Of the triangles of a fine tessellation that have about the same size, one per cube of a third of it.
+std::vector<SizeSource> clustered(const std::vector<SizeSource>& sources) {
+  constexpr double kCube = 0.35, kSizes = 8;  // cube over size; sizes per octave that count as equal
+  std::vector<SizeSource> kept;
+  std::unordered_set<std::uint64_t> seen;
+  for (const SizeSource& s : sources) {
+    const double octave = std::floor(kSizes * std::log2(s.size));
+    const double cube = kCube * std::exp2(octave / kSizes);
+    if (norm2(s.b - s.a) < cube * cube && norm2(s.c - s.a) < cube * cube) {
+      const Vec3 q = (1 / (3 * cube)) * (s.a + s.b + s.c);
+      Random random(static_cast<std::int64_t>(octave), s.empty_side,
+                    static_cast<std::int64_t>(std::floor(q.x)), static_cast<std::int64_t>(std::floor(q.y)),
+                    static_cast<std::int64_t>(std::floor(q.z)));
+      if (!seen.insert(random.next()).second) continue;
+    }
+    kept.push_back(s);
+  }
+  return kept;
+}
+
 }  // namespace
 
 struct SizeField::Impl {
@@ -84,29 +104,29 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
   const ProximityResult proximity =
       add_proximity(plc, geometry, boundary, options, limits, triangle_size, context, sources);
   if (proximity.wanted < 0.99 * proximity.finest) impl_->warnings.push_back(limited_walls(proximity));
-  ExactField field;
+  FieldSources field;
   field.max_size = options.max_size;
   field.floor = limits.floor;
   field.growth = options.growth;
   field.regions = options.regions;
   field.solid_size = used_solid_sizes(options);
-  field.boundary = &boundary;
-  double smallest_source = options.max_size;
-  for (const SizeSource& s : sources)
-    if (s.on_boundary) smallest_source = std::min(smallest_source, s.size);
-  field.sources = SourceTree(std::move(sources), options.growth);
+  field.sources = clustered(sources);
 
   impl_->growth = options.growth;
   impl_->smallest = impl_->largest = options.max_size;
-  double inverse_volume = domain_volume(plc) / (options.max_size * options.max_size * options.max_size);
+  const double volume = domain_volume(plc);
+  double inverse_volume = volume / (options.max_size * options.max_size * options.max_size);
   if (!field.constant()) {
-    impl_->octree = std::make_unique<Octree>(field, boundary, context);
-    impl_->smallest = std::max(field.smallest(), std::min(impl_->octree->smallest(), smallest_source));
+    impl_->octree = std::make_unique<Octree>(field, plc, boundary, volume, context);
+    impl_->smallest = std::max(field.smallest(), impl_->octree->smallest());
     impl_->largest = impl_->octree->largest();
     impl_->constant = false;
     inverse_volume = impl_->octree->inverse_volume();
   }
-  impl_->predicted = inverse_volume / kElementVolume + kBoundaryElements * inverse_boundary_area(plc);
+  impl_->predicted = kPerVolume * inverse_volume + kPerArea * inverse_boundary_area(plc);
+  for (const auto& [p, q, r] : proximity.walls)
+    impl_->predicted +=
+        kPerWallArea * inverse_area([&](const Vec3& x) { return at(x); }, p, q, r, impl_->constant ? 0 : 8);
 }
 
 double SizeField::inverse_boundary_area(const Plc& plc) const {

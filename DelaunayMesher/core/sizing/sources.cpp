@@ -5,7 +5,7 @@ namespace dm {
 namespace {
 
 constexpr double kCurvatureFloor = 1.0 / 100;  // of max_size, unless min_size is given
-constexpr double kProximityFloor = 1.0 / 50;
+constexpr double kProximityFloor = 1.0 / 25;
 constexpr double kCrossingFloor = 1.0 / 1000;
 
 double size_of(const std::vector<double>& sizes, Index i) {
@@ -73,7 +73,7 @@ void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<dou
       size = std::min(size, size_of(options.solid_size, solid - 1));
     const auto [a, b, c] = plc.triangles[t];
     triangle_size[t] = std::min(triangle_size[t], std::max(size, options.min_size));
-    add({plc.points[a], plc.points[b], plc.points[c], size, 3, true});
+    add(SizeSource::triangle({plc.points[a], plc.points[b], plc.points[c]}, size, empty_side(plc, face)));
   }
   for (std::size_t s = 0; s < plc.segments.size(); ++s) {
     const auto [a, b] = plc.segments[s];
@@ -81,11 +81,8 @@ void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<dou
   }
   for (std::size_t c = 0; c < plc.corners.size(); ++c)
     add(SizeSource::point(plc.points[plc.corners[c]], size_of(options.vertex_size, plc.corner_vertex[c])));
-  for (std::size_t i = 0; i < options.points.size(); ++i) {
-    SizeSource source = SizeSource::point(options.points[i], options.point_size[i]);
-    source.on_boundary = false;
-    add(source);
-  }
+  for (std::size_t i = 0; i < options.points.size(); ++i)
+    add(SizeSource::point(options.points[i], options.point_size[i]));
 }
 
 }  // namespace dm

@@ -1,4 +1,4 @@
-#include "sizing/exact_field.h"
+#include "sizing/field_sources.h"
 
 namespace dm {
 
@@ -24,36 +24,25 @@ Vec3 nearest_in_region(const SizeRegion& region, const Vec3& p) {
 }
 
 // From `size` to max_size over the transition, but never steeper than the growth rate.
-double ExactField::slope(const SizeRegion& region) const {
+double FieldSources::slope(const SizeRegion& region) const {
   if (!(region.transition > 0)) return growth;
   return std::min(growth, std::max(0.0, max_size - region.size) / region.transition);
 }
 
-double ExactField::at(const Vec3& p, Index& hint) const {
+double FieldSources::cap(const Vec3& p, const BoundaryTree& boundary) const {
   double h = max_size;
-  for (const SizeRegion& r : regions) {
+  for (const SizeRegion& r : regions)
     if (r.size < h) h = std::min(h, r.size + slope(r) * distance(p, nearest_in_region(r, p)));
-  }
-  h = sources.at(p, h, hint);
   if (!solid_size.empty()) {
-    const Index solid = boundary->solid_at(p);
+    const Index solid = boundary.solid_at(p);
     if (solid > 0 && solid <= static_cast<Index>(solid_size.size())) h = std::min(h, solid_size[solid - 1]);
   }
-  return std::max(h, floor);
+  return h;
 }
 
-double ExactField::continued(const Vec3& p, Index& hint) const {
-  const double h = at(p, hint);
-  if (hint < 0 || !sources.source(hint).on_boundary) return h;
-  const BoundaryTree::Foot nearest = boundary->nearest(p, distance(p, sources.source(hint).nearest(p)));
-  if (nearest.solid > 0) return h;
-  Index foot_hint = hint;
-  const double foot = at(nearest.place, foot_hint);
-  return std::max({2 * foot - h, 0.25 * foot, floor});
-}
-
-double ExactField::smallest() const {
-  double h = std::min(max_size, sources.smallest());
+double FieldSources::smallest() const {
+  double h = max_size;
+  for (const SizeSource& s : sources) h = std::min(h, s.size);
   for (const SizeRegion& r : regions) h = std::min(h, r.size);
   for (const double s : solid_size) h = std::min(h, s);
   return std::max(h, floor);
