@@ -43,9 +43,9 @@ double turning(const std::vector<Vec3>& points, const Chain& chain) {
 
 class Sampler {
  public:
-  Sampler(const Plc& plc, const Geometry& geometry, const SizeField& size, const CurveOptions& options,
+  Sampler(const Plc& plc, const Geometry& geometry, const LengthField& lengths, const CurveOptions& options,
           Context& context)
-      : plc_(plc), geometry_(geometry), size_(size), options_(options), context_(context) {}
+      : plc_(plc), geometry_(geometry), lengths_(lengths), options_(options), context_(context) {}
 
   CurveSampling run() {
     chains_ = find_chains(plc_, options_.keep);
@@ -66,8 +66,6 @@ class Sampler {
   }
 
  private:
-  double length_at(const Vec3& p) const { return options_.edge_ratio * size_.at(p); }
-
   void start_result() {
     result_.points = plc_.points;
     result_.role.assign(plc_.points.size(), CurvePointRole::none);
@@ -90,7 +88,7 @@ class Sampler {
   void pieces_of(const Chain& chain) {
     pieces_.clear();
     const bool straight = geometry_.is_line(chain.edge);
-    double length = length_at(plc_.points[chain.points[0]]);
+    double length = lengths_.at(plc_.points[chain.points[0]]);
     pieces_.push_back({plc_.points[chain.points[0]], 0, 0});
     for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
       const Vec3 a = plc_.points[chain.points[i]], b = plc_.points[chain.points[i + 1]];
@@ -104,7 +102,7 @@ class Sampler {
           p = a + t * (b - a);
           if (!straight) p = geometry_.project_to_edge(chain.edge, p);
         }
-        const double next_length = length_at(p);
+        const double next_length = lengths_.at(p);
         const Piece& last = pieces_.back();
         const double step = 2 * distance(p, last.point) / (length + next_length);
         pieces_.push_back({p, last.metric + step, static_cast<Index>(i)});
@@ -113,7 +111,13 @@ class Sampler {
     }
   }
 
+  bool frozen(const Chain& chain) const {
+    return !options_.keep.empty() && chain.segments.size() == 1 && options_.keep[chain.points.front()] == 2 &&
+           options_.keep[chain.points.back()] == 2;
+  }
+
   Index part_count(const Chain& chain) const {
+    if (frozen(chain)) return 1;
     const double s = pieces_.back().metric;
     double n = std::max(1.0, std::floor(s));
     if (s > std::sqrt(n * (n + 1))) ++n;  // parts longer and shorter than wanted by equal factors
@@ -205,7 +209,7 @@ class Sampler {
 
   const Plc& plc_;
   const Geometry& geometry_;
-  const SizeField& size_;
+  const LengthField& lengths_;
   const CurveOptions& options_;
   Context& context_;
   CurveSampling result_;
@@ -217,9 +221,9 @@ class Sampler {
 
 }  // namespace
 
-CurveSampling sample_curves(const Plc& plc, const Geometry& geometry, const SizeField& size,
+CurveSampling sample_curves(const Plc& plc, const Geometry& geometry, const LengthField& lengths,
                             const CurveOptions& options, Context& context) {
-  return Sampler(plc, geometry, size, options, context).run();
+  return Sampler(plc, geometry, lengths, options, context).run();
 }
 
 }  // namespace dm

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "base/context.h"
+#include "curves/length_field.h"
 #include "plc/geometry.h"
 #include "plc/plc.h"
-#include "sizing/size_field.h"
 
 namespace dm {
 
@@ -42,13 +42,13 @@ struct CurveSampling {
 };
 
 struct CurveOptions {
-  double edge_ratio = 0.8;  // wanted length is edge_ratio * h
-  double jitter = 0.1;      // relative to the length of the parts
-  // PLC points that must stay although the sampling would drop them (a face could not do without).
+  double jitter = 0.1;  // relative to the length of the parts
+  // Per PLC point (empty = none): 1 = must stay although the sampling would drop it (a face could not do
+  // without), 2 = and nothing is inserted between it and the next such point.
   std::vector<char> keep;
 };
 
-CurveSampling sample_curves(const Plc& plc, const Geometry& geometry, const SizeField& size,
+CurveSampling sample_curves(const Plc& plc, const Geometry& geometry, const LengthField& lengths,
                             const CurveOptions& options, Context& context);
 
 }  // namespace dm

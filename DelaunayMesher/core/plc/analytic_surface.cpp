@@ -40,7 +40,22 @@ void AnalyticSurface::restrict_sheets(const std::vector<Vec3>& points_of_face) {
     const bool undecided = spindle ? m.r < 1e-6 * extent : std::abs(m.z) < 1e-6 * extent;
     if (!undecided) seen[sheet(p)] = true;
   }
-  if (seen[0] != seen[1]) used_[0] = seen[0], used_[1] = seen[1];
+  if (seen[0] != seen[1])
+    used_[0] = seen[0], used_[1] = seen[1];
+  else if (!spindle)
+    choose_nappe(points_of_face);
+}
+
+// Of an almost flat cone, the points' side of the apex is noise; their distances from the nappes are not.
+void AnalyticSurface::choose_nappe(const std::vector<Vec3>& points_of_face) {
+  double farthest[2] = {0, 0};
+  for (const Vec3& p : points_of_face) {
+    const Meridian m = meridian(p);
+    farthest[0] = std::max(farthest[0], std::abs(m.z * sine_ - m.r * cosine_));
+    farthest[1] = std::max(farthest[1], std::abs(m.z * sine_ + m.r * cosine_));
+  }
+  for (int i = 0; i < 2; ++i)
+    if (farthest[i] < 0.1 * farthest[1 - i]) used_[i] = true, used_[1 - i] = false;
 }
 
 AnalyticSurface::Meridian AnalyticSurface::meridian(const Vec3& p) const {

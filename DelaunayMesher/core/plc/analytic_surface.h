@@ -30,6 +30,7 @@ class AnalyticSurface final : public Surface {
   Meridian meridian(const Vec3& p) const;
   Vec3 at(double z, double r, const Vec3& radial) const;
   Vec3 sphere_direction(const Vec3& p) const;
+  void choose_nappe(const std::vector<Vec3>& points_of_face);
   int cone_nappe(const Meridian& m) const;
   double cone_length(const Meridian& m) const;  // distance of the projection from the apex
   int torus_sheet(const Meridian& m) const;

@@ -86,7 +86,7 @@ FacePatch PatchSource::extract(Index face) const {
   }
   patch.start(std::move(local), std::move(twins));
   fix_unlabelled(patch, corners);
-  insert_samples(patch);
+  add_samples(patch);
   return patch;
 }
 
@@ -104,8 +104,7 @@ void PatchSource::fix_unlabelled(FacePatch& patch, const std::vector<Index>& cor
   }
 }
 
-void PatchSource::insert_samples(FacePatch& patch) const {
-  // Splitting one edge of a triangle may move another of its edges to a new triangle, met later in this loop.
+void PatchSource::add_samples(FacePatch& patch) const {
   for (Index e = 0; e < static_cast<Index>(patch.vertex.size()); ++e) {
     if (patch.twin[e] >= 0) continue;
     const Index a = patch.global[patch.origin(e)], b = patch.global[patch.target(e)];
@@ -113,11 +112,12 @@ void PatchSource::insert_samples(FacePatch& patch) const {
     const Index s = find_segment(a, b);
     if (s < 0) continue;
     const Index low = curves_.first[s], count = curves_.first[s + 1] - low;
+    if (count == 0) continue;
     const bool forward = plc_.segments[s][0] == a;
-    Index rest = e;
+    patch.pending.push_back({patch.origin(e), patch.vertex_count(), patch.vertex_count() + count});
     for (Index k = 0; k < count; ++k) {
       const Index p = curves_.inserted[forward ? low + k : low + count - 1 - k];
-      rest = patch.split_edge(rest, patch.add_vertex(curves_.points[p], VertexKind::fixed, p));
+      patch.add_vertex(curves_.points[p], VertexKind::fixed, p);
     }
   }
 }

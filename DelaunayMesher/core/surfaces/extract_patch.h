@@ -15,8 +15,8 @@ class PatchSource {
  public:
   PatchSource(const Plc& plc, const CurveSampling& curves);
 
-  // The patch of `face`: its tessellation, cut along segments, with the curve samples inserted in its
-  // boundary edges.  Old curve points are still in it, with kind `dropped`.  Cost O(size log size).
+  // The patch of `face`: its tessellation, cut along segments, with the curve samples pending in its boundary
+  // edges.  Old curve points are still in it, with kind `dropped`.  Cost O(size log size).
   FacePatch extract(Index face) const;
   Index triangle_count(Index face) const { return first_[face + 1] - first_[face]; }
   // PLC segment joining two points, or -1.
@@ -25,7 +25,7 @@ class PatchSource {
  private:
   std::vector<Index> pair_half_edges(const std::vector<Index>& corners) const;
   void fix_unlabelled(FacePatch& patch, const std::vector<Index>& corners) const;
-  void insert_samples(FacePatch& patch) const;
+  void add_samples(FacePatch& patch) const;
 
   const Plc& plc_;
   const CurveSampling& curves_;

@@ -71,6 +71,14 @@ Index FacePatch::find_edge(Index a, Index b) const {
   return found;
 }
 
+Index FacePatch::boundary_edge(Index v) const {
+  Index found = -1;
+  for_each_corner(v, [&](Index c) {
+    if (twin[prev(c)] < 0) found = prev(c);
+  });
+  return found;
+}
+
 void FacePatch::split_triangle(Index t, Index v) {
   const Index a = vertex[3 * t], b = vertex[3 * t + 1], c = vertex[3 * t + 2];
   const Index bc = twin[3 * t], ca = twin[3 * t + 1];

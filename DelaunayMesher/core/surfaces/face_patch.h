@@ -31,6 +31,11 @@ class FacePatch {
   std::vector<Index> global;  // point of the curve sampling, or -1: born on this face
   std::vector<Index> vertex;  // of each corner; -1 in a removed triangle
   std::vector<Index> twin;    // of each half-edge
+  // Vertices first, ..., last - 1 wait to be inserted in the boundary edge that starts at `origin`.
+  struct Pending {
+    Index origin, first, last;
+  };
+  std::vector<Pending> pending;
 
   static Index next(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
   static Index prev(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
@@ -79,6 +84,9 @@ class FacePatch {
   }
   // The half-edge from a to b, or the one from b to a where only that exists; -1 if they are not joined.
   Index find_edge(Index a, Index b) const;
+
+  // The boundary half-edge that starts at v.  Precondition: v is on the boundary.
+  Index boundary_edge(Index v) const;
 
   // t (a, b, c) becomes (a, b, v), (b, c, v), (c, a, v).
   void split_triangle(Index t, Index v);

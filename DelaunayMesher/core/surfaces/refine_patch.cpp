@@ -124,7 +124,7 @@ bool PatchRemesher::insert_near_centre(Index t) {
   if (!(distance(p, wanted) < 0.7 * circle.radius)) return false;
   const Index s = locate(t, p);
   if (s < 0) return false;
-  const double length_at_p = options_.edge_ratio * size_.at(p);
+  const double length_at_p = lengths_.at(p);
   if (!may_insert(s, p, length_at_p, circle.radius)) return false;
 
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);

@@ -6,7 +6,10 @@
 #include <thread>
 #include <tuple>
 
+#include "curves/curve_changes.h"
 #include "curves/sample_curves.h"
+#include "surfaces/crossings.h"
+#include "surfaces/defects.h"
 #include "surfaces/extract_patch.h"
 #include "surfaces/remesh_patch.h"
 
@@ -14,49 +17,156 @@ namespace dm {
 namespace {
 
 constexpr int kLastAttempt = 4;  // to sample the curves anew before all their old points are kept
+constexpr int kLastRound = 8;
+constexpr int kNarrowRounds = 2;  // that look for narrow strips
+constexpr int kCapRounds = 2;  // of smaller lengths where two faces cross, before the tessellation is taken
+constexpr double kKeepRadius = 3;     // round a crossing, over half the wanted length
+constexpr double kSmallLength = 0.1;  // over the largest: where gaps between curves and faces may matter
+constexpr double kGaps = 8;           // least length over such a gap
+constexpr double kRefined = 0.82;     // circumradius over length in tessellations that are refined
+
+// How a face is meshed; faces whose triangles cross go from one to the next.
+enum class FaceMode : std::int8_t {
+  remeshed,
+  refined,  // the tessellation with its boundary, and points inserted where triangles are too large
+  as_given  // the tessellation
+};
 
 class SurfaceMesher {
  public:
   SurfaceMesher(const Plc& plc, const Geometry& geometry, const SizeField& size,
                 const SurfaceOptions& options, Context& context)
-      : plc_(plc), geometry_(geometry), size_(size), options_(options), context_(context) {}
+      : plc_(plc),
+        geometry_(geometry),
+        lengths_(size, options.edge_ratio),
+        options_(options),
+        context_(context),
+        patches_(plc.face_solids.size()),
+        left_(plc.face_solids.size()),
+        redo_(plc.face_solids.size(), 1),
+        mode_(plc.face_solids.size(), FaceMode::remeshed),
+        crossed_(plc.face_solids.size(), 0) {
+    keep_.assign(plc.points.size(), 0);
+  }
 
   SurfaceMesh run() {
-    CurveOptions curve_options{options_.edge_ratio, options_.jitter, {}};
     context_.begin("curves");
-    for (int attempt = 1;; ++attempt) {
-      curves_ = sample_curves(plc_, geometry_, size_, curve_options, context_);
-      if (attempt == 1) context_.begin("surfaces");
-      const PatchSource source(plc_, curves_);
-      const std::vector<Index> left = remesh_faces(source);
-      if (left.empty()) break;
-      curve_options.keep.resize(plc_.points.size(), 0);
-      keep_points(left, attempt, curve_options.keep);
+    find_floors();
+    for (int attempt = 1, round = 1;; ++round) {
+      resample(round == 1);
+      if (round == 1) context_.begin("surfaces");
+      remesh_faces();
+      if (keep_left_points(attempt)) {
+        ++attempt;
+        continue;
+      }
+      separate_faces();
+      SurfaceMesh mesh = assemble();
+      if (round >= kLastRound || !demand_repairs(mesh, round)) return mesh;
     }
-    separate_faces();
-    return assemble();
   }
 
  private:
-  // Marks old curve points as staying: the given ones, then all of their CAD edges, at last all there are,
-  // with which no face can be in difficulty.
-  void keep_points(const std::vector<Index>& left, int attempt, std::vector<char>& keep) const {
-    for (Index p : left) keep[p] = 1;
-    if (attempt == 1) return;
+  // Triangles smaller than the gap between a curve and its face cannot be laid out along the curve.
+  void find_floors() {
+    const PatchSource source(plc_, curves_);
+    const double small = kSmallLength * lengths_.largest();
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index a = plc_.triangles[t][i], b = plc_.triangles[t][(i + 1) % 3], f = plc_.triangle_face[t];
+        const Vec3 middle = 0.5 * (plc_.points[a] + plc_.points[b]);
+        if (std::min(lengths_.at(plc_.points[a]), lengths_.at(middle)) > small) continue;
+        const Index s = source.find_segment(a, b);
+        if (s < 0) continue;
+        for (const Vec3& p : {plc_.points[a], geometry_.project_to_edge(plc_.segment_edge[s], middle)}) {
+          const double gap = distance(p, geometry_.project_to_face(f, p));
+          if (kGaps * gap > lengths_.at(p)) lengths_.add_floor(p, kGaps * gap);
+        }
+      }
+    lengths_.apply_caps();
+  }
+
+  // Samples the curves; faces with a curve that changed are to be done again, the others take over the new
+  // numbers of its points.
+  void resample(bool first) {
+    CurveSampling before = std::move(curves_);
+    const CurveOptions curve_options{options_.jitter, keep_};
+    curves_ = sample_curves(plc_, geometry_, lengths_, curve_options, context_);
+    if (first) return;
+    const CurveChanges changes(before, curves_, plc_.edge_count);
+    for (const auto& [face, edge] : face_edges())
+      if (changes.edge_changed(edge)) redo_[face] = 1;
+    for (Index f = 0; f < face_count(); ++f) {
+      if (redo_[f]) continue;
+      for (Index& p : patches_[f].global) p = changes.new_number(p);
+    }
+  }
+
+  using FaceEdge = std::pair<Index, Index>;
+
+  // Pairs of face and CAD edge, sorted; made when first needed, as are the points of edges.
+  const std::vector<FaceEdge>& face_edges() {
+    if (!face_edges_.empty()) return face_edges_;
+    const PatchSource source(plc_, curves_);
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index s = source.find_segment(plc_.triangles[t][i], plc_.triangles[t][(i + 1) % 3]);
+        if (s >= 0) face_edges_.emplace_back(plc_.triangle_face[t], plc_.segment_edge[s]);
+      }
+    std::sort(face_edges_.begin(), face_edges_.end());
+    face_edges_.erase(std::unique(face_edges_.begin(), face_edges_.end()), face_edges_.end());
+    return face_edges_;
+  }
+
+  std::pair<std::vector<FaceEdge>::const_iterator, std::vector<FaceEdge>::const_iterator> edges_of_face(
+      Index face) {
+    const std::vector<FaceEdge>& all = face_edges();
+    return {std::lower_bound(all.begin(), all.end(), FaceEdge{face, -1}),
+            std::lower_bound(all.begin(), all.end(), FaceEdge{face + 1, -1})};
+  }
+
+  const std::vector<Index>& points_of_edge(Index edge) {
+    if (edge_points_.empty()) {
+      edge_points_.resize(plc_.edge_count);
+      for (std::size_t s = 0; s < plc_.segments.size(); ++s)
+        for (const Index p : plc_.segments[s]) edge_points_[plc_.segment_edge[s]].push_back(p);
+    }
+    return edge_points_[edge];
+  }
+
+  // Where faces could not do without old curve points, marks these as staying: the points, then all of their
+  // CAD edges, at last all there are, with which no face can be in difficulty.
+  bool keep_left_points(int attempt) {
+    std::vector<Index> left;
+    for (const auto& points : left_) left.insert(left.end(), points.begin(), points.end());
+    if (left.empty()) return false;
+    const auto keep = [&](Index p) { keep_[p] = std::max<char>(keep_[p], 1); };
+    for (Index p : left) keep(p);
+    if (attempt == 1) return true;
     std::vector<char> edges(plc_.edge_count, attempt >= kLastAttempt);
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)
-      if (keep[plc_.segments[s][0]] || keep[plc_.segments[s][1]]) edges[plc_.segment_edge[s]] = 1;
+      if (keep_[plc_.segments[s][0]] || keep_[plc_.segments[s][1]]) edges[plc_.segment_edge[s]] = 1;
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)
-      if (edges[plc_.segment_edge[s]]) keep[plc_.segments[s][0]] = keep[plc_.segments[s][1]] = 1;
+      if (edges[plc_.segment_edge[s]])
+        for (const Index p : plc_.segments[s]) keep(p);
+    return true;
   }
 
   Index face_count() const { return static_cast<Index>(plc_.face_solids.size()); }
 
-  // Returns the old curve points that some face could not do without.
-  std::vector<Index> remesh_faces(const PatchSource& source) {
+  void remesh_face(const PatchSource& source, Index f, const PatchPoll& poll) {
+    patches_[f] = source.extract(f);
+    left_[f].clear();
+    PatchRemesher remesher(patches_[f], f, geometry_, lengths_, options_, context_.seed, poll);
+    if (mode_[f] != FaceMode::remeshed) remesher.insert_samples();
+    if (mode_[f] == FaceMode::refined) remesher.refine(kRefined);
+    if (mode_[f] == FaceMode::remeshed) left_[f] = remesher.run();
+  }
+
+  // Does the faces that are to be done.
+  void remesh_faces() {
+    const PatchSource source(plc_, curves_);
     const Index n = face_count();
-    patches_.assign(n, {});
-    std::vector<std::vector<Index>> left(n);
     std::vector<std::exception_ptr> errors(n);
     std::atomic<Index> next{0};
     std::atomic<bool> stop{false};
@@ -64,9 +174,7 @@ class SurfaceMesher {
     auto work = [&](Context* context) {
       for (Index f = next++; f < n && !stop; f = next++) {
         try {
-          patches_[f] = source.extract(f);
-          const PatchPoll poll{context, &stop, &done};
-          left[f] = PatchRemesher(patches_[f], f, geometry_, size_, options_, context_.seed, poll).run();
+          if (redo_[f]) remesh_face(source, f, {context, &stop, &done});
         } catch (...) {
           errors[f] = std::current_exception();
           stop = true;
@@ -80,9 +188,73 @@ class SurfaceMesher {
     for (std::thread& t : threads) t.join();
     for (const std::exception_ptr& error : errors)
       if (error) std::rethrow_exception(error);
-    std::vector<Index> all;
-    for (const auto& points : left) all.insert(all.end(), points.begin(), points.end());
-    return all;
+    redo_.assign(n, 0);
+  }
+
+  // Where the mesh has defects, asks for smaller lengths, for old curve points, at last for the tessellation.
+  // True when some face is to be done again.
+  bool demand_repairs(const SurfaceMesh& mesh, int round) {
+    repair_crossings(find_crossing_defects(mesh, lengths_));
+    if (round <= kNarrowRounds)
+      for (const Defect& d : find_narrow_places(mesh, lengths_))
+        if (mode_[d.face] == FaceMode::remeshed) lengths_.add_cap(d.place, d.length);
+    redo_in(lengths_.apply_caps());
+    return std::find(redo_.begin(), redo_.end(), 1) != redo_.end();
+  }
+
+  // Two faces that cross get smaller lengths there.  A face that crosses itself is blamed alone and gets the
+  // old points of its curves back thereabouts: between curves that all but touch, the tessellation's points
+  // face each other, and chords between others cross.  What does not help is followed by the tessellation.
+  void repair_crossings(const std::vector<Defect>& crossings) {
+    std::vector<char> crosses(face_count(), 0), crosses_itself(face_count(), 0);
+    for (const Defect& d : crossings) crosses_itself[d.face] |= d.face == d.other;
+    for (const Defect& d : crossings) crosses[d.face] |= crosses_itself[d.face] || !crosses_itself[d.other];
+    for (Index f = 0; f < face_count(); ++f)
+      if (crosses[f] && (crosses_itself[f] ? ++crossed_[f] > 1 : ++crossed_[f] > kCapRounds)) escalate(f);
+    for (const Defect& d : crossings) {
+      if (!crosses[d.face] || mode_[d.face] != FaceMode::remeshed) continue;
+      if (crosses_itself[d.face])
+        keep_near(d);
+      else
+        lengths_.add_cap(d.place, d.length);
+    }
+  }
+
+  void escalate(Index f) {
+    if (mode_[f] == FaceMode::as_given || tessellation_crosses(f)) return;
+    mode_[f] = mode_[f] == FaceMode::remeshed ? FaceMode::refined : FaceMode::as_given;
+    redo_[f] = 1;
+    const auto [first, last] = edges_of_face(f);
+    for (auto e = first; e != last; ++e)
+      for (const Index p : points_of_edge(e->second)) keep_[p] = 2;
+  }
+
+  // Keeps the old curve points of the defect's face near it.
+  void keep_near(const Defect& d) {
+    const double radius2 = kKeepRadius * kKeepRadius * d.length * d.length;
+    const auto [first, last] = edges_of_face(d.face);
+    for (auto e = first; e != last; ++e)
+      for (const Index p : points_of_edge(e->second))
+        if (keep_[p] != 2 && norm2(plc_.points[p] - d.place) < radius2) keep_[p] = 2, redo_[d.face] = 1;
+  }
+
+  bool tessellation_crosses(Index face) {
+    if (!input_checked_) {
+      input_checked_ = true;
+      input_crosses_.assign(face_count(), 0);
+      for (const auto& pair : find_crossings(plc_.points, plc_.triangles))
+        for (const Index t : pair) input_crosses_[plc_.triangle_face[t]] = 1;
+    }
+    return input_crosses_[face];
+  }
+
+  void redo_in(const std::vector<Box>& boxes) {
+    if (boxes.empty()) return;
+    std::vector<Box> face_boxes(face_count());
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (const Index p : plc_.triangles[t]) face_boxes[plc_.triangle_face[t]].add(plc_.points[p]);
+    for (Index f = 0; f < face_count(); ++f)
+      for (const Box& box : boxes) redo_[f] |= box.overlaps(face_boxes[f]);
   }
 
   // An edge across one face must be no edge of another face nor of a curve, and no triangle may be in two
@@ -121,7 +293,7 @@ class SurfaceMesher {
       FacePatch& patch = patches_[face];
       const Index e = patch.find_edge(a, b);
       if (e < 0 || patch.twin[e] < 0) continue;
-      PatchRemesher(patch, face, geometry_, size_, options_, context_.seed, {}).split_at_middle(e);
+      PatchRemesher(patch, face, geometry_, lengths_, options_, context_.seed, {}).split_at_middle(e);
     }
   }
 
@@ -163,11 +335,21 @@ class SurfaceMesher {
 
   const Plc& plc_;
   const Geometry& geometry_;
-  const SizeField& size_;
+  LengthField lengths_;
   const SurfaceOptions& options_;
   Context& context_;
   CurveSampling curves_;
+  std::vector<char> keep_;  // CurveOptions::keep
+  // By face:
   std::vector<FacePatch> patches_;
+  std::vector<std::vector<Index>> left_;  // old curve points that it could not do without
+  std::vector<char> redo_;                // to be done
+  std::vector<FaceMode> mode_;
+  std::vector<Index> crossed_;  // rounds in which its triangles crossed
+  std::vector<FaceEdge> face_edges_;
+  std::vector<std::vector<Index>> edge_points_;
+  bool input_checked_ = false;
+  std::vector<char> input_crosses_;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <tuple>
 
 #include "base/random.h"
 
@@ -22,12 +24,13 @@ double longest2(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-PatchRemesher::PatchRemesher(FacePatch& patch, Index face, const Geometry& geometry, const SizeField& size,
-                             const SurfaceOptions& options, std::uint64_t seed, PatchPoll poll)
+PatchRemesher::PatchRemesher(FacePatch& patch, Index face, const Geometry& geometry,
+                             const LengthField& lengths, const SurfaceOptions& options, std::uint64_t seed,
+                             PatchPoll poll)
     : patch_(patch),
       face_(face),
       geometry_(geometry),
-      size_(size),
+      lengths_(lengths),
       options_(options),
       seed_(seed),
       poll_(poll),
@@ -36,6 +39,7 @@ PatchRemesher::PatchRemesher(FacePatch& patch, Index face, const Geometry& geome
 }
 
 std::vector<Index> PatchRemesher::run() {
+  insert_samples();
   make_delaunay();
   remove_dropped();
   collapse_short(0.6);
@@ -56,7 +60,7 @@ std::vector<Index> PatchRemesher::run() {
 
 void PatchRemesher::set_vertex(Index v, const Vec3& p, const Vec3& hint) {
   patch_.points[v] = p;
-  patch_.lengths[v] = options_.edge_ratio * size_.at(p);
+  patch_.lengths[v] = lengths_.at(p);
   if (planar_ && v > 0) {
     patch_.normals[v] = patch_.normals[0];
     return;
@@ -117,6 +121,34 @@ double PatchRemesher::radius_ratio(Index t) const {
   const double product = std::sqrt(norm2(b - a) * norm2(c - b) * norm2(a - c));
   const double length = (patch_.lengths[v[0]] + patch_.lengths[v[1]] + patch_.lengths[v[2]]) / 3;
   return product / (2 * std::max(area2, kDegenerate * longest2(a, b, c)) * length);
+}
+
+// ---- samples of the boundary
+
+void PatchRemesher::insert_samples() {
+  using Pending = FacePatch::Pending;
+  std::priority_queue<std::tuple<double, Index, Index, Index>> longest;
+  const auto push = [&](const Pending& part) {
+    if (part.first >= part.last) return;
+    const Index e = patch_.boundary_edge(part.origin);
+    const double length2 = norm2(points()[patch_.target(e)] - points()[part.origin]);
+    longest.emplace(length2, part.origin, part.first, part.last);
+  };
+  for (const Pending& part : patch_.pending) push(part);
+  patch_.pending.clear();
+  std::size_t steps = 0;
+  while (!longest.empty()) {
+    const auto [length2, origin, first, last] = longest.top();
+    longest.pop();
+    const Index middle = first + (last - first) / 2;
+    patch_.split_edge(patch_.boundary_edge(origin), middle);
+    push_star(middle);
+    lawson();
+    push({origin, first, middle});
+    push({middle, middle + 1, last});
+    if ((++steps & 255) == 0) poll_();
+  }
+  if (!planar_) drop_doubtful_normals();
 }
 
 // ---- Lawson flips

@@ -1,6 +1,8 @@
 // Remeshing of one face's patch by local operations in space, not in the (u, v) plane.
 //
-// Idea: the tessellation is only the map on which this happens.  Old boundary points are collapsed away,
+// Idea: the tessellation is only the map on which this happens.  The curve samples are put in its boundary,
+// always in the longest edge: between fine samples and a coarse triangulation the curve's bulge would turn
+// triangles over.  Old boundary points are collapsed away,
 // short edges too; then triangles whose circumradius exceeds the wanted one get a point near their
 // circumcentre (Chew 1993, on the surface; randomly displaced because exact centres leave slivers), largest
 // first, with Lawson flips after every insertion; Laplacian smoothing weighted by the wanted size evens the
@@ -16,8 +18,8 @@
 #include <vector>
 
 #include "base/context.h"
+#include "curves/length_field.h"
 #include "plc/geometry.h"
-#include "sizing/size_field.h"
 #include "surfaces/face_patch.h"
 #include "surfaces/remesh.h"
 
@@ -36,13 +38,14 @@ struct PatchPoll {
 
 class PatchRemesher {
  public:
-  PatchRemesher(FacePatch& patch, Index face, const Geometry& geometry, const SizeField& size,
+  PatchRemesher(FacePatch& patch, Index face, const Geometry& geometry, const LengthField& lengths,
                 const SurfaceOptions& options, std::uint64_t seed, PatchPoll poll);
 
   // All steps.  Returns the old boundary points (PLC points) that could not be removed.
   std::vector<Index> run();
 
   // The steps, each leaving a valid patch.
+  void insert_samples();  // puts the pending samples in, coarse to fine, with Lawson flips in between
   void make_delaunay();   // Lawson flips over the whole patch
   void remove_dropped();  // collapse old boundary points
   void collapse_short(double ratio);
@@ -93,7 +96,7 @@ class PatchRemesher {
   FacePatch& patch_;
   const Index face_;
   const Geometry& geometry_;
-  const SizeField& size_;
+  const LengthField& lengths_;
   const SurfaceOptions& options_;
   const std::uint64_t seed_;
   const PatchPoll poll_;

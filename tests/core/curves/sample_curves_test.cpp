@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "curves/chains.h"
+#include "curves/curve_changes.h"
+#include "curves/length_field.h"
 
 using namespace dm;
 
@@ -52,7 +54,7 @@ CurveSampling sample(const Curves& c, double size, CurveOptions options = {}) {
   sizes.max_size = size;
   sizes.elements_per_circle = sizes.elements_across = 0;
   const SizeField field(c.plc, geometry, sizes, context);
-  return sample_curves(c.plc, geometry, field, options, context);
+  return sample_curves(c.plc, geometry, LengthField(field, 0.8), options, context);
 }
 
 Index count_segments(const CurveSampling& s, Index edge) {
@@ -76,7 +78,7 @@ TEST_CASE("chains: from corner to corner, and loops without one") {
 
 TEST_CASE("samples lie on the exact curve, evenly, and follow the wanted length") {
   const Curves c(10, 33);
-  const CurveSampling s = sample(c, 2.5, {0.8, 0, {}});
+  const CurveSampling s = sample(c, 2.5, {0, {}});
   const Geometry geometry(c.plc, c.records);
   CHECK(count_segments(s, 0) == 31);  // 20 pi / 2 = 31.4
   CHECK(count_segments(s, 1) == 31);
@@ -121,4 +123,43 @@ TEST_CASE("points asked to stay do") {
   const CurveSampling s = sample(c, 100, options);
   CHECK(s.role[5] == CurvePointRole::fixed);
   CHECK(s.points[5] == c.plc.points[5]);
+}
+
+TEST_CASE("nothing is inserted between frozen points, and unchanged edges keep their samples") {
+  const Curves c(24, 4);
+  const CurveSampling before = sample(c, 1);
+  CurveOptions options;
+  options.keep.assign(c.plc.points.size(), 0);
+  for (Index p = 0; p < 24; ++p) options.keep[p] = 2;
+  const CurveSampling after = sample(c, 1, options);
+  CHECK(count_segments(before, 0) > 24);
+  CHECK(count_segments(after, 0) == 24);
+  const CurveChanges changes(before, after, c.plc.edge_count);
+  CHECK(changes.edge_changed(0));
+  CHECK(!changes.edge_changed(1));
+  for (std::size_t s = 0; s < before.segments.size(); ++s)
+    if (before.segment_edge[s] != 0)
+      for (const Index p : before.segments[s]) CHECK(before.points[p] == after.points[changes.new_number(p)]);
+}
+
+TEST_CASE("caps and floors of the length field") {
+  const Curves c(24, 4);
+  const Geometry geometry(c.plc, c.records);
+  Context context;
+  SizeOptions sizes;
+  sizes.max_size = 10;
+  sizes.elements_per_circle = sizes.elements_across = 0;
+  const SizeField field(c.plc, geometry, sizes, context);
+  LengthField lengths(field, 0.8);
+  CHECK(lengths.at({0, 0, 0}) == doctest::Approx(8));
+  lengths.add_cap({0, 0, 0}, 1);
+  lengths.add_cap({5, 0, 0}, 20);  // no effect
+  CHECK(lengths.apply_caps().size() == 1);
+  CHECK(lengths.at({0, 0, 0}) == doctest::Approx(1));
+  CHECK(lengths.at({2, 0, 0}) == doctest::Approx(2));
+  CHECK(lengths.at({40, 0, 0}) == doctest::Approx(8));
+  lengths.add_floor({0, 0, 0}, 3);
+  CHECK(lengths.apply_caps().empty());
+  CHECK(lengths.at({0, 0, 0}) == doctest::Approx(3));
+  CHECK(lengths.at({1, 0, 0}) == doctest::Approx(2.5));
 }

@@ -156,6 +156,21 @@ TEST_CASE("a point beyond the apex stays on the nappe of its face") {
   CHECK(geometry.normal(0, {0, 0, 0}).z == doctest::Approx(-1));
 }
 
+TEST_CASE("a ring of an almost flat cone has one nappe, with normals all to one side") {
+  const double angle = 0.5 * pi - 7e-7;
+  const SurfaceRecord record{SurfaceKind::cone, {0, 0, 0}, {0, 0, 1}, angle, 0, -1};
+  const auto ring = [&](double u, double v) {
+    return Vec3{v * std::sin(angle) * std::cos(u), v * std::sin(angle) * std::sin(u), v * std::cos(angle)};
+  };
+  const Plc plc = test::patch(ring, {0, 3, 1, 25}, 12, 4);
+  const Geometry geometry(plc, {{record}, {}, {}, {}});
+  for (double noise : {-1e-4, -1e-7, 0.0, 1e-7, 1e-4}) {
+    const Vec3 p = ring(1, 10) + Vec3{0, 0, noise};
+    CHECK(distance(geometry.project_to_face(0, p), ring(1, 10)) < 1e-9);
+    CHECK(geometry.normal(0, p).z * geometry.normal(0, ring(2, 20)).z > 0.99);
+  }
+}
+
 TEST_CASE("facets and polylines") {
   const Plc plc = box();
   Geometry geometry(plc, {});

@@ -1,0 +1,53 @@
+// The edge length wanted on the boundary: a part of h, and less where the boundary turned out to need it.
+//
+// The size field knows nothing of what goes wrong when its sizes are laid on the surface: a strip narrower
+// than its triangles, a bend that they cut off.  Such places become caps: a length wanted at a point, growing
+// from there at a fixed rate.  Where CAD curves lie off their faces, triangles as small as the gap would turn
+// over: such places become floors, which win over caps.  Cost of at(): the size field's, plus a walk in a box
+// tree when there are caps.
+#pragma once
+
+#include <vector>
+
+#include "sizing/box_tree.h"
+#include "sizing/size_field.h"
+
+namespace dm {
+
+class LengthField {
+ public:
+  LengthField(const SizeField& size, double edge_ratio) : size_(size), edge_ratio_(edge_ratio) {}
+
+  double at(const Vec3& p) const;                                                 // thread-safe
+  double without_caps(const Vec3& p) const { return edge_ratio_ * size_.at(p); }  // thread-safe
+  double largest() const { return edge_ratio_ * size_.largest(); }
+  // Asks for `length` at p; no effect where it is not wanted shorter.  Takes effect with apply_caps().
+  void add_cap(const Vec3& p, double length);
+  // Asks for no less than `length` at p.  Takes effect with apply_caps().
+  void add_floor(const Vec3& p, double length) { floors_.add(p, length, kFloorReach * length); }
+  // Rebuilds the trees.  Returns the boxes in which lengths may have changed.
+  std::vector<Box> apply_caps();
+
+ private:
+  static constexpr double kGrowth = 0.5;  // with distance: steeper than the size field's, to save elements
+  static constexpr double kFloorReach = 1 / kGrowth;
+
+  // Lengths at points, each felt within a reach.
+  struct Places {
+    std::vector<Vec3> points;
+    std::vector<double> lengths;
+    std::vector<Box> boxes;
+    BoxTree tree;
+    void add(const Vec3& p, double length, double reach);
+    // Calls f(length, distance) for every place that p may be in reach of.
+    template <class F>
+    void for_each_near(const Vec3& p, F f) const;
+  };
+
+  const SizeField& size_;
+  double edge_ratio_;
+  Places caps_, floors_;
+  std::size_t applied_ = 0;
+};
+
+}  // namespace dm

@@ -1,0 +1,20 @@
+// Which triangles of a surface cross each other: no triangulation can contain both.
+//
+// A box tree is joined with itself; a pair whose boxes overlap is tested edge against triangle.  Orientations
+// are floating-point with an error bound, and an uncertain one counts as touching: what matters to the
+// surfaces stage is real crossings, not which side of rounding a contact lies on.
+// Cost: O(n log n + candidates), about a microsecond per triangle.
+#pragma once
+
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace dm {
+
+// Pairs (i < j, sorted) of triangles whose interiors cross properly.  Triangles that share an edge or merely
+// touch do not count.
+std::vector<std::array<Index, 2>> find_crossings(const std::vector<Vec3>& points,
+                                                 const std::vector<Triangle>& triangles);
+
+}  // namespace dm

@@ -1,0 +1,127 @@
+#include "surfaces/defects.h"
+
+#include <algorithm>
+
+#include "surfaces/crossings.h"
+
+namespace dm {
+namespace {
+
+constexpr double kSmallAngle = 0.94;   // cosine of 20 degrees
+constexpr double kShortSegment = 0.5;  // over the wanted length
+constexpr double kStripLength = 1.5;   // wanted length over the strip's width
+constexpr double kFloor = 1.0 / 8;     // of the length the size field wants
+constexpr double kWedge = 3;           // distance from the meeting point over the width: 20 degrees
+constexpr double kNoGain = 0.85;       // a cap no shorter than this, over the present length, is not worth it
+
+class NarrowPlaces {
+ public:
+  NarrowPlaces(const SurfaceMesh& mesh, const LengthField& lengths) : mesh_(mesh), lengths_(lengths) {}
+
+  std::vector<Defect> run() {
+    std::vector<Defect> found;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Triangle& v = mesh_.triangles[t];
+      int on_curves = 0;
+      for (const Index p : v) on_curves += mesh_.point_entity[p].dimension < 2;
+      if (on_curves < 2) continue;
+      const int corner = smallest_corner(v);
+      if (corner < 0) continue;
+      const Index a = v[corner], b = v[(corner + 1) % 3], c = v[(corner + 2) % 3];
+      const bool short_segment = is_segment(b, c);
+      if (on_curves < 3 && !short_segment) continue;
+      if (is_segment(a, b) && is_segment(a, c)) continue;  // the angle is the input's
+      const Vec3 &pa = mesh_.points[a], &pb = mesh_.points[b], &pc = mesh_.points[c];
+      const double width = height(pa, pb, pc);
+      if (in_wedge(v, width)) continue;
+      const Vec3 place = (1.0 / 3) * (pa + pb + pc);
+      const double length = std::max(kStripLength * width, kFloor * lengths_.without_caps(place));
+      if (length < kNoGain * lengths_.at(place)) found.push_back({place, length, mesh_.triangle_face[t], -1});
+    }
+    return found;
+  }
+
+ private:
+  static double height(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double longest = std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
+    return longest > 0 ? norm(area_vector(a, b, c)) / std::sqrt(longest) : 0;
+  }
+
+  // The corner with an angle under 20 degrees, the smallest first; -1 if there is none.
+  int smallest_corner(const Triangle& v) const {
+    int found = -1;
+    double most = kSmallAngle;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 &p = mesh_.points[v[i]], &q = mesh_.points[v[(i + 1) % 3]],
+                 &r = mesh_.points[v[(i + 2) % 3]];
+      const double d = dot(q - p, r - p), cosine2 = norm2(q - p) * norm2(r - p);
+      if (d > 0 && d * d > most * most * cosine2) {
+        most = d / std::sqrt(cosine2);
+        found = i;
+      }
+    }
+    return found;
+  }
+
+  // Do two curves of the triangle meet, farther away than belongs to its width?  Then the strip is a wedge.
+  bool in_wedge(const Triangle& v, double width) {
+    if (edge_ends_.empty()) find_edge_ends();
+    for (int i = 0; i < 3; ++i) {
+      const Entity &a = mesh_.point_entity[v[i]], &b = mesh_.point_entity[v[(i + 1) % 3]];
+      if (a.dimension != 1 || b.dimension != 1 || a.index == b.index) continue;
+      for (const Index p : edge_ends_[a.index])
+        for (const Index q : edge_ends_[b.index])
+          if (p == q && distance(mesh_.points[p], mesh_.points[v[i]]) > kWedge * width) return true;
+    }
+    return false;
+  }
+
+  void find_edge_ends() {
+    Index edge_count = 0;
+    for (const Index e : mesh_.segment_edge) edge_count = std::max(edge_count, e + 1);
+    edge_ends_.resize(edge_count);
+    for (std::size_t s = 0; s < mesh_.segments.size(); ++s)
+      for (const Index p : mesh_.segments[s])
+        if (mesh_.point_entity[p].dimension == 0) edge_ends_[mesh_.segment_edge[s]].push_back(p);
+  }
+
+  bool is_segment(Index a, Index b) {
+    if (segments_.empty()) {
+      for (const Segment& s : mesh_.segments) segments_.push_back(std::minmax(s[0], s[1]));
+      std::sort(segments_.begin(), segments_.end());
+    }
+    return std::binary_search(segments_.begin(), segments_.end(), std::pair<Index, Index>(std::minmax(a, b)));
+  }
+
+  const SurfaceMesh& mesh_;
+  const LengthField& lengths_;
+  std::vector<std::pair<Index, Index>> segments_;  // sorted; made when first needed, as is
+  std::vector<std::vector<Index>> edge_ends_;      // CAD vertices by edge
+};
+
+}  // namespace
+
+std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths) {
+  std::vector<std::array<Index, 3>> crossing;  // triangle; 0 if the other is of its own face; other's face
+  for (const auto& [i, j] : find_crossings(mesh.points, mesh.triangles)) {
+    const Index f = mesh.triangle_face[i], g = mesh.triangle_face[j];
+    crossing.push_back({i, f != g, g});
+    crossing.push_back({j, f != g, f});
+  }
+  std::sort(crossing.begin(), crossing.end());
+  std::vector<Defect> found;
+  for (std::size_t k = 0; k < crossing.size(); ++k) {
+    const auto [t, differs, other] = crossing[k];
+    if (k > 0 && crossing[k - 1][0] == t) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 place = (1.0 / 3) * (mesh.points[a] + mesh.points[b] + mesh.points[c]);
+    found.push_back({place, 0.5 * lengths.at(place), mesh.triangle_face[t], other});
+  }
+  return found;
+}
+
+std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const LengthField& lengths) {
+  return NarrowPlaces(mesh, lengths).run();
+}
+
+}  // namespace dm

@@ -1,0 +1,28 @@
+// What may be wrong with a remeshed boundary: triangles that cross, strips too narrow for their triangles.
+// mesh_surfaces asks for smaller lengths there and does the faces again.
+#pragma once
+
+#include <vector>
+
+#include "curves/length_field.h"
+#include "surfaces/surface_mesh.h"
+
+namespace dm {
+
+// A place that needs a smaller length.
+struct Defect {
+  Vec3 place;
+  double length = 0;            // edge length that may cure it
+  Index face = -1, other = -1;  // other: a face it crosses, itself first
+};
+
+// Triangles that cross another one (every one of them, with half the length wanted there).
+// Cost: find_crossings.
+std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths);
+
+// Triangles with an angle under 20 degrees between curves closer together than the wanted length, or beside
+// a short CAD edge.  Not where the curves themselves meet at such an angle, nor below an eighth of the length
+// that the size field wants.
+std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const LengthField& lengths);
+
+}  // namespace dm

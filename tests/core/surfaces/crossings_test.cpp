@@ -1,0 +1,56 @@
+#include "surfaces/crossings.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "base/random.h"
+
+using namespace dm;
+
+namespace {
+
+// By solving for the edge's point in the triangle's plane; for points in general position.
+bool edge_hits(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = area_vector(a, b, c);
+  const double s = dot(n, p - a), t = dot(n, q - a);
+  if (s * t >= 0) return false;
+  const Vec3 x = p + (s / (s - t)) * (q - p);
+  return dot(n, area_vector(a, b, x)) > 0 && dot(n, area_vector(b, c, x)) > 0 &&
+         dot(n, area_vector(c, a, x)) > 0;
+}
+
+}  // namespace
+
+TEST_CASE("crossing triangles: the same pairs as by testing all") {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < 220; ++t) {
+    Random random(1, 2, t);
+    const Vec3 centre = 5.0 * random.in_ball();
+    for (int i = 0; i < 3; ++i) points.push_back(centre + random.in_ball());
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const auto corner = [&](Index t, int i) { return points[triangles[t][i % 3]]; };
+  std::vector<std::array<Index, 2>> expected;
+  for (Index s = 0; s < 220; ++s)
+    for (Index t = s + 1; t < 220; ++t) {
+      bool cross_each_other = false;
+      for (int i = 0; i < 3; ++i)
+        cross_each_other |=
+            edge_hits(corner(s, i), corner(s, i + 1), corner(t, 0), corner(t, 1), corner(t, 2)) ||
+            edge_hits(corner(t, i), corner(t, i + 1), corner(s, 0), corner(s, 1), corner(s, 2));
+      if (cross_each_other) expected.push_back({s, t});
+    }
+  CHECK(expected.size() > 5);
+  CHECK(find_crossings(points, triangles) == expected);
+}
+
+TEST_CASE("contacts are no crossings") {
+  const std::vector<Vec3> points{{0, 0, 0},     {2, 0, 0}, {0, 2, 0}, {0, 0, 1},
+                                 {0.5, 0.5, 0}, {1, 1, 1}, {0, 1, 1}};
+  CHECK(find_crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());  // a common edge
+  CHECK(find_crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());  // a common corner
+  CHECK(find_crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());  // a corner in the other's inside
+  CHECK(find_crossings({}, {}).empty());
+}
