@@ -9,10 +9,10 @@ namespace dm {
 
 namespace {
 
-constexpr double kFree = 2.5, kTight = 1.85;  // size per width; see the header
-constexpr double kTightWithin = 2;            // the other side is tight up to this many widths
-constexpr double kOpposed = 0.966;            // cosine between ray and normal: 15 degrees
-constexpr int kDeepestSplit = 10;
+constexpr double kFree = 2.5, kTight = 1.85, kGap = 6;  // size per width; see the header
+constexpr double kTightWithin = 2;                      // the other side is tight up to this many widths
+constexpr double kOpposed = 0.966;                      // cosine between ray and normal: 15 degrees
+constexpr int kDeepestSplit = 20;
 constexpr std::int64_t kMostPlaces = 150'000;
 // Walls and gaps may cost this many times the elements of the rest, and this many in any case.
 constexpr double kBudgetFactor = 3, kBudget = 100'000;
@@ -23,6 +23,7 @@ constexpr double kWallElements = 6, kGrownElements = 4.7;
 struct Patch {
   std::array<Vec3, 3> corner;
   double size;
+  double width;      // of the wall or gap
   double curvature;  // of the two sides, the larger
   bool wall;
   int empty_side;
@@ -48,7 +49,8 @@ class Prober {
     const Vec3 normal = area_vector(p[0], p[1], p[2]);
     if (!(norm2(normal) > 0)) return;
     normal_ = normalized(normal);
-    if (longest(p) < local_size && !first_in_its_neighbourhood(p)) return;
+    // Of the triangles of a fine tessellation one per face and cube is enough.
+    if (longest(p) < local_size && !seen_.insert(cube((1.0 / 3) * (p[0] + p[1] + p[2]))).second) return;
     visit(p, 0);
   }
   std::vector<Patch> patches;
@@ -58,12 +60,12 @@ class Prober {
     return std::sqrt(std::max({norm2(p[1] - p[0]), norm2(p[2] - p[1]), norm2(p[0] - p[2])}));
   }
 
-  // Of the triangles of a fine tessellation one per face and cube of half the size is enough.
-  bool first_in_its_neighbourhood(const std::array<Vec3, 3>& p) {
-    const Vec3 q = (2 / (3 * local_size_)) * (p[0] + p[1] + p[2] - 3.0 * boundary_.box().low);
+  // A face and a cube of half the local size.
+  std::uint64_t cube(const Vec3& p) const {
+    const Vec3 q = (2 / local_size_) * (p - boundary_.box().low);
     Random random(0, face_, static_cast<std::int64_t>(q.x), static_cast<std::int64_t>(q.y),
                   static_cast<std::int64_t>(q.z));
-    return seen_.insert(random.next()).second;
+    return random.next();
   }
 
   // Is the width t between the two faces that of a wedge?  In a wedge of angle alpha, t = x tan(alpha) at the
@@ -105,8 +107,8 @@ class Prober {
       if (t == HUGE_VAL) continue;
       const bool wall = solids[side] > 0;
       const bool tight = behind <= kTightWithin * t || (wall && solids[1 - side] > 0);
-      const double h = (tight ? kTight : kFree) * t * per_width_;
-      if (h < size) size = h, other_face_ = w[side].face, wall_ = wall;
+      const double h = (tight ? kTight : wall ? kFree : kGap) * t * per_width_;
+      if (h < size) size = h, width_ = t, other_face_ = w[side].face, wall_ = wall;
     }
     return size;
   }
@@ -114,6 +116,7 @@ class Prober {
   void visit(const std::array<Vec3, 3>& p, int depth) {
     const Vec3 middle = (1.0 / 3) * (p[0] + p[1] + p[2]);
     const double edge = longest(p);
+    if (edge <= 4 * local_size_ && clear_.contains(cube(middle))) return;
     double low = size_at(middle), high = low;
     if (edge > std::min(local_size_, low))
       for (const Vec3& corner : p) {
@@ -126,14 +129,17 @@ class Prober {
     const bool enough =
         found ? (even || edge <= 2 * low) && edge <= 16 * local_size_ : edge <= 4 * local_size_;
     if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
-      if (found) patches.push_back({p, low, curvature(middle), wall_, empty_side(plc_, face_)});
+      if (!found) clear_.insert(cube(middle));
+      if (found) patches.push_back({p, low, width_, curvature(middle), wall_, empty_side(plc_, face_)});
       return;
     }
-    const Vec3 q[3] = {0.5 * (p[0] + p[1]), 0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0])};
-    visit({p[0], q[0], q[2]}, depth + 1);
-    visit({q[0], p[1], q[1]}, depth + 1);
-    visit({q[2], q[1], p[2]}, depth + 1);
-    visit({q[0], q[1], q[2]}, depth + 1);
+    // In two across the longest edge, so that slivers make few parts.
+    int i = 0;
+    for (int k = 1; k < 3; ++k)
+      if (norm2(p[(k + 1) % 3] - p[k]) > norm2(p[(i + 1) % 3] - p[i])) i = k;
+    const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3], half = 0.5 * (a + b);
+    visit({a, half, c}, depth + 1);
+    visit({half, b, c}, depth + 1);
   }
 
   double curvature(const Vec3& p) const {
@@ -146,12 +152,12 @@ class Prober {
   const Geometry& geometry_;
   const BoundaryTree& boundary_;
   SharedEdges shared_;
-  double per_width_, epsilon_ = 0, local_size_ = 0;
+  double per_width_, epsilon_ = 0, local_size_ = 0, width_ = 0;
   Index triangle_ = -1, face_ = -1, other_face_ = -1;
   Vec3 normal_;
   bool wall_ = false;
   std::int64_t places_ = 0;
-  std::unordered_set<std::uint64_t> seen_;
+  std::unordered_set<std::uint64_t> seen_, clear_;  // cubes: probed for a triangle, found without walls
 };
 
 double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
@@ -199,9 +205,8 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
     double size = std::max(patch.size, floor);
     if (patch.size < floor && patch.curvature > 0) {
       // Facets of curved faces must not cross the gap: their sagitta stays below a third of its width.
-      const double t = patch.size / (kFree * 2 / options.elements_across);
-      size = std::min(
-          size, std::max({std::sqrt(8 * t / (3 * patch.curvature)) / 0.8, patch.size, limits.crossing}));
+      const double sagitta = std::sqrt(8 * patch.width / (3 * patch.curvature)) / 0.8;
+      size = std::min(size, std::max({sagitta, patch.size, limits.crossing}));
     }
     if (patch.wall) result.walls.push_back(patch.corner);
     result.wanted = std::min(result.wanted, patch.size);
