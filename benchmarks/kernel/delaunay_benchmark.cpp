@@ -12,6 +12,7 @@
 #include "kernel/predicates.h"
 #include "kernel/triangulation.h"
 #include "point_sets.h"
+#include "thread_probes.h"
 
 #ifdef DM_WITH_CGAL
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -82,6 +83,22 @@ void compare(const char* name, const std::vector<Vec3>& points, int threads, int
   std::fflush(stdout);
 }
 
+void compare_threads(const std::vector<Vec3>& points, int threads, int runs) {
+  using benchmark::speed_up;
+  double own = 0, arithmetic = 0, memory = 0;
+  std::size_t bytes = 0;
+  for (int i = 0; i < runs; ++i) {
+    arithmetic = std::max(arithmetic, speed_up(benchmark::arithmetic_probe, threads));
+    memory = std::max(memory, speed_up(benchmark::memory_probe, threads));
+    const double start = now();
+    run_own(points, 1, bytes);
+    const double one = now() - start;
+    own = std::max(own, one / run_own(points, threads, bytes).seconds);
+  }
+  std::printf("%d threads, %zu points: speed-up %.2f; of pure arithmetic %.2f, of pure memory access %.2f\n",
+              threads, points.size(), own, arithmetic, memory);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -94,6 +111,8 @@ int main(int argc, char** argv) {
   if (wanted("sphere")) compare("sphere", benchmark::sphere(n / 10), threads, runs);
   if (wanted("cylinder")) compare("cylinder", benchmark::cylinder(n / 10), threads, runs);
   if (wanted("clusters")) compare("clusters", benchmark::clusters(n), threads, runs);
+  if (wanted("plate")) compare("plate", benchmark::plate(n / 10), threads, runs);
+  if (threads > 1) compare_threads(benchmark::uniform(n), threads, runs);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf("peak memory of the process %.0f MB\n", usage.ru_maxrss / 1024.0);

@@ -13,6 +13,9 @@
 namespace dm {
 namespace {
 
+constexpr Index kRoundGrowth = 8;          // spatial_sort.cpp: a round is so many times those before it
+constexpr std::size_t kSlotsPerPoint = 7;  // uniform points need 6.8
+
 Failure degenerate(const char* why, std::span<const Vec3> points) {
   return Failure("kernel", "degenerate_points", std::string("No tetrahedra: ") + why + ".",
                  points.empty() ? Vec3{} : points[0]);
@@ -52,7 +55,9 @@ class TriangulationBuilder {
     for (const Index i : t_.numbers_) t_.points_.push_back(points_[i]);
     t_.vertex_tet_.assign(points_.size(), -1);
     start(first);
-    PartInsertion parts(t_, order.codes, threads, parallel_from);
+    const Index last_round = order.rounds.back() - order.rounds[order.rounds.size() - 2];
+    const Index parts_from = last_round >= parallel_from ? parallel_from / kRoundGrowth : last_round + 1;
+    PartInsertion parts(t_, order.codes, threads, parts_from);
     for (std::size_t r = 0; r + 1 < order.rounds.size(); ++r)
       parts.insert_round(order.rounds[r], order.rounds[r + 1]);
     restore_numbers();
@@ -63,7 +68,8 @@ class TriangulationBuilder {
  private:
   // Tetrahedron 0 = the first four vertices, and its four ghosts.
   void start(const Tet& first) {
-    t_.reserve_slots(64);
+    // Room for uniform points at once: pages not touched cost nothing, but moving a grown array does.
+    t_.resize_slots(kSlotsPerPoint * points_.size() + 64);
     t_.slots_.next = 5;
     t_.corners_[0] = first;
     for (int i = 0; i < 5; ++i) t_.tags_[i] = 0, t_.flags_[i] = 0;

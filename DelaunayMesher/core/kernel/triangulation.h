@@ -81,8 +81,9 @@ class Triangulation {
   // Exact duplicates get no tetrahedron: vertex_tet() of the later one is -1.
   // Throws Failure("kernel", "degenerate_points") when all points are coplanar, Failure("kernel",
   // "not_finite") when a coordinate is NaN or infinite.
-  // Rounds of at least `parallel_from` points are inserted in parts, which several threads can share; the
-  // result depends on this number, but never on that of the threads (tests lower it).
+  // When the last round has `parallel_from` points or more, it is inserted in parts, which several threads
+  // can share, and so are the rounds before it down to an eighth of that; the numbers of the tetrahedra
+  // depend on this limit, but never on the number of threads (tests lower it).
   explicit Triangulation(std::span<const Vec3> points, int threads = 1, Index parallel_from = 1500000);
 
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
