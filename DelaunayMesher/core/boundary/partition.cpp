@@ -125,14 +125,20 @@ class Partition {
     set_marked_both(tets_, 4 * t + i, true);
   }
 
-  // The CAD face between these solids that most of the corners lie on.
+  // The CAD face between these solids that most of the corners lie on; any face between them as a last
+  // resort.
   Index best_face(const Triangle& corners, Index here, Index beyond) const {
+    const auto separates = [&](Index f) {
+      const auto& s = solids_of_.at(f);
+      return (s[0] == here && s[1] == beyond) || (s[0] == beyond && s[1] == here);
+    };
     std::map<Index, int> votes;
     for (const Index v : corners)
-      for (const Index f : faces_at_[v]) {
-        const auto& s = solids_of_.at(f);
-        if ((s[0] == here && s[1] == beyond) || (s[0] == beyond && s[1] == here)) ++votes[f];
-      }
+      for (const Index f : faces_at_[v])
+        if (separates(f)) ++votes[f];
+    if (votes.empty())
+      for (const auto& [f, solids] : solids_of_)
+        if (separates(f)) votes[f] = 1;
     if (votes.empty())
       throw Failure("boundary", "leak", "two solids meet here where no CAD face separates them",
                     tets_.point(corners[0]), complex_.entity(corners[0]));

@@ -1,0 +1,180 @@
+// The boundary stage: every label a face of the triangulation, every tetrahedron in its solid.
+#include "boundary/recovery.h"
+
+#include <doctest/doctest.h>
+
+#include "../surfaces/shapes.h"
+#include "boundary/intersections.h"
+#include "boundary/partition.h"
+#include "surfaces/remesh.h"
+
+using namespace dm;
+
+namespace {
+
+struct Case {
+  const char* name;
+  shapes::Shape shape;
+  double size;
+};
+
+std::vector<Case> cases() {
+  return {{"box", shapes::box(6, 4, 3), 0.6},
+          {"two boxes", shapes::two_boxes(), 0.4},
+          {"tube", shapes::turned(5, 5, 8, 3, 24), 1.0},
+          {"cone", shapes::turned(4, 0, 8, 0, 24), 1.0},
+          {"sphere", shapes::sphere(5, 16), 1.2},
+          {"torus", shapes::torus(8, 2, 24, 12), 1.0}};
+}
+
+struct Stages {
+  Geometry geometry;
+  Context context;
+  SizeField size;
+  SurfaceMesh surface;
+
+  explicit Stages(const Case& c)
+      : geometry(c.shape.plc, c.shape.records),
+        size(c.shape.plc, geometry, options(c.size), context),
+        surface(mesh_surfaces(c.shape.plc, geometry, size, {}, context)) {}
+  static SizeOptions options(double h) {
+    SizeOptions o;
+    o.max_size = h;
+    return o;
+  }
+};
+
+double solid_volume(const LabelledTriangulation& mesh, int solid) {
+  double volume = 0;
+  for (Index t = 0; t < mesh.tets.slot_count(); ++t) {
+    if (mesh.tets.is_free(t) || mesh.tets.is_ghost(t) || mesh.tets.tag(t) != solid) continue;
+    const auto [a, b, c, d] = mesh.tets.corners(t);
+    const auto& p = mesh.tets.points();
+    volume += dot(area_vector(p[a], p[b], p[c]), p[d] - p[a]) / 6;
+  }
+  return volume;
+}
+
+double surface_volume(const SurfaceMesh& surface, const Plc& plc, Index solid) {
+  double volume = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& s = plc.face_solids[surface.triangle_face[t]];
+    const auto [a, b, c] = surface.triangles[t];
+    const double v = dot(surface.points[a], cross(surface.points[b], surface.points[c])) / 6;
+    volume += (s[0] == solid ? v : 0) - (s[1] == solid ? v : 0);
+  }
+  return volume;
+}
+
+}  // namespace
+
+TEST_CASE("recovery: the labels are faces and the solids have the volume of their surface") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    Stages stages(c);
+    RecoveryReport report;
+    const auto mesh =
+        recover_boundary(stages.surface, c.shape.plc, stages.geometry, stages.size, stages.context, report);
+    mesh.tets.check(true);
+    check_complex(mesh.boundary);
+    check_boundary(mesh);
+    CHECK(report.replaced == 0);
+    for (Index solid = 1; solid <= c.shape.plc.solid_count; ++solid) {
+      const double expected = surface_volume(stages.surface, c.shape.plc, solid);
+      // Flips and splits on curved faces move the surface within its own faceting error.
+      CHECK(solid_volume(mesh, solid) == doctest::Approx(expected).epsilon(2e-3));
+    }
+  }
+}
+
+TEST_CASE("recovery: every segment is an edge of the triangulation and keeps its CAD edge") {
+  const Case c{"tube", shapes::turned(5, 5, 8, 3, 24), 1.0};
+  Stages stages(c);
+  RecoveryReport report;
+  const auto mesh =
+      recover_boundary(stages.surface, c.shape.plc, stages.geometry, stages.size, stages.context, report);
+  CHECK(mesh.boundary.segments().size() >= stages.surface.segments.size());
+  for (const auto& [key, edge] : mesh.boundary.segments()) {
+    const auto [a, b] = BoundaryComplex::segment_of_key(key);
+    for (const Index v : {a, b})
+      CHECK(distance(mesh.tets.point(v), stages.geometry.project_to_edge(edge, mesh.tets.point(v))) < 1e-9);
+  }
+}
+
+TEST_CASE("partition: a removed label is found again from the tetrahedra") {
+  const Case c{"two boxes", shapes::two_boxes(), 0.4};
+  Stages stages(c);
+  RecoveryReport report;
+  auto mesh =
+      recover_boundary(stages.surface, c.shape.plc, stages.geometry, stages.size, stages.context, report);
+  const double before[2] = {solid_volume(mesh, 1), solid_volume(mesh, 2)};
+  std::vector<Index> missing;
+  for (Index t = 0; t < mesh.boundary.slot_count(); t += 7) {
+    if (!mesh.boundary.alive(t)) continue;
+    const Triangle& q = mesh.boundary.corners(t);
+    set_marked_both(mesh.tets, find_face(mesh.tets, q[0], q[1], q[2]), false);
+    missing.push_back(t);
+  }
+  REQUIRE(missing.size() > 10);
+  partition_solids(mesh, missing);
+  check_boundary(mesh);
+  CHECK(solid_volume(mesh, 1) == doctest::Approx(before[0]).epsilon(0.02));
+  CHECK(solid_volume(mesh, 2) == doctest::Approx(before[1]).epsilon(0.02));
+}
+
+TEST_CASE("tag_solids: an open boundary is noticed") {
+  const Case c{"box", shapes::box(6, 4, 3), 0.6};
+  Stages stages(c);
+  RecoveryReport report;
+  auto mesh =
+      recover_boundary(stages.surface, c.shape.plc, stages.geometry, stages.size, stages.context, report);
+  CHECK(tag_solids(mesh));
+  Index t = 0;
+  while (!mesh.boundary.alive(t)) ++t;
+  const Triangle& q = mesh.boundary.corners(t);
+  set_marked_both(mesh.tets, find_face(mesh.tets, q[0], q[1], q[2]), false);
+  CHECK_FALSE(tag_solids(mesh));
+  CHECK_THROWS_AS(check_boundary(mesh), Failure);
+}
+
+TEST_CASE("complex: a flip exchanges the diagonal and a flip back restores it") {
+  SurfaceMesh surface;
+  surface.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  surface.point_entity.assign(4, {2, 0});
+  surface.triangles = {{0, 1, 2}, {0, 2, 3}};
+  surface.triangle_face = {0, 0};
+  BoundaryComplex complex(surface, {{1, 0}});
+  EdgeFlip flip;
+  REQUIRE(can_flip(complex, surface.points, 0, 2, flip));
+  do_flip(complex, flip);
+  CHECK(complex.find(0, 1, 3) >= 0);
+  CHECK(complex.find(1, 2, 3) >= 0);
+  CHECK(complex.find(0, 1, 2) < 0);
+  CHECK_FALSE(can_flip(complex, surface.points, 0, 1, flip));  // an edge of one triangle
+  REQUIRE(can_flip(complex, surface.points, 1, 3, flip));
+  do_flip(complex, flip);
+  CHECK(complex.find(0, 1, 2) >= 0);
+}
+
+TEST_CASE("corner_in_front agrees with the sign of the volume") {
+  const std::vector<Vec3> p = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Tet tet{0, 1, 2, 3};
+  for (int i = 0; i < 4; ++i) {
+    Triangle t{tet[(i + 1) & 3], tet[(i + 2) & 3], tet[(i + 3) & 3]};
+    for (int turn = 0; turn < 2; ++turn) {
+      const bool front = dot(area_vector(p[t[0]], p[t[1]], p[t[2]]), p[i] - p[t[0]]) > 0;
+      CHECK(corner_in_front(tet, i, t) == front);
+      std::swap(t[0], t[1]);
+    }
+  }
+}
+
+TEST_CASE("find_intersections: proper crossings only") {
+  const std::vector<Vec3> p = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1},
+                               {2, 1, 1}, {0, 0, 5}, {4, 0, 5}, {4, 4, 0}};
+  CHECK(find_intersections(p, {{0, 1, 2}, {3, 4, 5}}).size() == 1);
+  CHECK(find_intersections(p, {{0, 1, 2}, {0, 1, 6}}).empty());      // a shared edge
+  CHECK(find_intersections(p, {{0, 1, 2}, {4, 5, 6}}).empty());      // apart
+  CHECK(find_intersections(p, {{0, 1, 2}, {1, 2, 8}}).empty());      // coplanar neighbours
+  CHECK(find_intersections(p, {{0, 3, 4}, {0, 1, 2}}).size() == 1);  // through, from a shared corner
+}
