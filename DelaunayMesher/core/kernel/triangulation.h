@@ -1,6 +1,6 @@
 // Delaunay triangulation of a growing point set in flat arrays (docs/kernel.md).
 //
-// Idea: Bowyer-Watson (1981) with a ghost vertex at infinity; cavity found by depth-first search from a
+// Idea: Bowyer-Watson (1981) with a ghost vertex at infinity; cavity found by breadth-first search from a
 // tetrahedron in conflict; slots of the cavity are used again.  Cospherical ties are broken by symbolic
 // perturbation on the vertex number, so the result is unique.
 // Two ways to use it: insert a point set at once (build), or propose a site, look at its cavity, and commit
@@ -13,7 +13,7 @@
 // Corners are positively oriented (orient3d > 0); the ghost is always corner 3, and a ghost tetrahedron
 // (a, b, c, ghost) is in conflict with the points on the positive side of (a, b, c), i.e. outside the hull.
 // Cost: about 20 sphere tests and 27 new tetrahedra per point; memory: docs/kernel.md.
-// Limits: coordinates of magnitude 1e-40 .. 1e50 or 0; at most 5e8 tetrahedra (a Face is 32 bits).
+// Limits: finite coordinates; at most 5e8 tetrahedra (a Face is 32 bits).
 // find_cavity is const but stamps: it may run in two threads at once only where no tetrahedron is seen by
 // both.
 #pragma once
