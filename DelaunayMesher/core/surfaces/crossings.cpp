@@ -75,13 +75,14 @@ class CrossingSearch {
     return triangles_[t][0] == v || triangles_[t][1] == v || triangles_[t][2] == v;
   }
 
+  // Each must have corners on both sides of the other's plane.
   bool cross_each_other(Index s, Index t) const {
     int shared = 0;
     for (const Index v : triangles_[s]) shared += is_corner(v, t);
     if (shared >= 2) return false;
     int of_s[3], of_t[3];
-    const bool s_spans = sides_of_plane(s, t, of_s), t_spans = sides_of_plane(t, s, of_t);
-    return (s_spans && edge_passes(s, of_s, t)) || (t_spans && edge_passes(t, of_t, s));
+    if (!sides_of_plane(s, t, of_s) || !sides_of_plane(t, s, of_t)) return false;
+    return edge_passes(s, of_s, t) || edge_passes(t, of_t, s);
   }
 
   // Does an edge of s, with its corners on the given sides of t's plane, pass through t?

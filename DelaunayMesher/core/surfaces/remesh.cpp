@@ -194,11 +194,14 @@ class SurfaceMesher {
   // Where the mesh has defects, asks for smaller lengths, for old curve points, at last for the tessellation.
   // True when some face is to be done again.
   bool demand_repairs(const SurfaceMesh& mesh, int round) {
-    repair_crossings(find_crossing_defects(mesh, lengths_));
     if (round <= kNarrowRounds)
-      for (const Defect& d : find_narrow_places(mesh, lengths_))
-        if (mode_[d.face] == FaceMode::remeshed) lengths_.add_cap(d.place, d.length);
-    redo_in(lengths_.apply_caps());
+      for (const Defect& d : find_narrow_places(mesh, lengths_)) lengths_.add_cap(d.place, d.length);
+    std::vector<Box> changed = lengths_.apply_caps();
+    if (changed.empty()) {  // crossings cost more to find: only when nothing else is to be done
+      repair_crossings(find_crossing_defects(mesh, lengths_));
+      changed = lengths_.apply_caps();
+    }
+    redo_in(changed);
     return std::find(redo_.begin(), redo_.end(), 1) != redo_.end();
   }
 
