@@ -11,8 +11,10 @@ from dataclasses import dataclass, field
 
 import MeshPart
 import numpy as np
+import Part
 
 from .merge_points import merge_points
+from .strips import is_narrow, strip_facets
 
 INTERIOR = ("Internal", "External")
 
@@ -63,10 +65,20 @@ class Tessellation:
 def tessellate(shape, linear, angular):
     """Tessellation of a copy of `shape` with the given linear (mm) and angular (rad) deflection."""
     shape = shape.copy()  # the displayed shape keeps its own triangulation
-    MeshPart.meshFromShape(Shape=shape, LinearDeflection=linear, AngularDeflection=angular, Relative=False)
     faces, edges, vertices = shape.Faces, shape.Edges, shape.Vertexes
-    facets = [face.getFacesFromSubElement("Face", 1) for face in faces]
-    lines, face_edges, edge_faces, seam_faces = edge_lines(faces, edges)
+    face_edges, edge_faces, seam_faces = incidences(faces, edges)
+    narrow = {number for number, face in enumerate(faces) if is_narrow(face)}
+    wide = Part.Compound([face for number, face in enumerate(faces) if number not in narrow])
+    MeshPart.meshFromShape(
+        Shape=wide if narrow else shape, LinearDeflection=linear, AngularDeflection=angular, Relative=False
+    )
+    lines = edge_lines(faces, edges, face_edges, narrow, linear)
+    facets = [
+        strip_facets(face, [lines[edge] for edge in face_edges[number]])
+        if number in narrow
+        else face.getFacesFromSubElement("Face", 1)
+        for number, face in enumerate(faces)
+    ]
 
     blocks = [vectors_to_array([vertex.Point for vertex in vertices])]
     blocks += [vectors_to_array(line) for line in lines]
@@ -100,27 +112,35 @@ def tessellate(shape, linear, angular):
     )
 
 
-def edge_lines(faces, edges):
-    """Per edge the ordered nodes of its polygon (asked of a face it bounds: that is far cheaper than of the
-    whole shape); per face its edges; per edge its faces; the seams."""
+def incidences(faces, edges):
+    """Per face its edges (in the order of face.Edges); per edge its faces; {seam edge: its face}."""
     index = ShapeIndex(edges)
-    lines = [[] for _ in edges]
     edge_faces = [[] for _ in edges]
     face_edges, seam_faces = [], {}
     for face_number, face in enumerate(faces):
         mine = []
-        for position, edge in enumerate(face.Edges):
+        for edge in face.Edges:
             number = index.find(edge)
             mine.append(number)
             edge_faces[number].append(face_number)
-            if edges[number].Degenerated:
-                continue
-            if edge.isSeam(face):
+            if not edges[number].Degenerated and edge.isSeam(face):
                 seam_faces[number] = face_number
-            if not lines[number]:
-                lines[number] = face.getLinesFromSubElement("Edge", position + 1)[0]
         face_edges.append(mine)
-    return lines, face_edges, edge_faces, seam_faces
+    return face_edges, edge_faces, seam_faces
+
+
+def edge_lines(faces, edges, face_edges, without, linear):
+    """Per edge the ordered nodes of its polygon, asked of a face it bounds (that is far cheaper than of the
+    whole shape) that OCC has triangulated, or cut up here when there is none."""
+    lines = [[] for _ in edges]
+    for face_number, (face, mine) in enumerate(zip(faces, face_edges)):
+        for position, number in enumerate(mine if face_number not in without else ()):
+            if not lines[number] and not edges[number].Degenerated:
+                lines[number] = face.getLinesFromSubElement("Edge", position + 1)[0]
+    for number in {edge for face in without for edge in face_edges[face]}:
+        if not lines[number] and not edges[number].Degenerated:
+            lines[number] = edges[number].discretize(Deflection=linear)
+    return lines
 
 
 def gather_segments(lines, starts, compact):
