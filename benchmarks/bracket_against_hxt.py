@@ -24,7 +24,7 @@ PART = os.path.join(ROOT, "resources", "examples", "bracket.step")
 PER_CIRCLE = 12
 HXT, HXT_FINER = "Gmsh HXT", "Gmsh HXT, finer"
 MESHERS = ("ours", "ours, not optimised", HXT, HXT_FINER)
-FINER = 0.83  # size setting of HXT for about as many tetrahedra as ours
+FINER = 0.79  # size setting of HXT for about as many tetrahedra as ours
 
 
 def run_ours(size, optimise):
