@@ -12,6 +12,7 @@ namespace {
 constexpr double kFree = 2.5, kTight = 1.85, kGap = 6;  // size per width; see the header
 constexpr double kTightWithin = 2;                      // the other side is tight up to this many widths
 constexpr double kOpposed = 0.966;                      // cosine between ray and normal: 15 degrees
+constexpr double kContact = 1e-6;  // of the diagonal: narrower than this, faces touch and there is no gap
 constexpr int kDeepestSplit = 20;
 constexpr std::int64_t kMostPlaces = 150'000;
 // Walls and gaps may cost this many times the elements of the rest, and this many in any case.
@@ -37,7 +38,7 @@ class Prober {
         boundary_(boundary),
         shared_(plc),
         per_width_(2 / options.elements_across) {
-    epsilon_ = 1e-9 * norm(boundary.box().extent());
+    epsilon_ = kContact * norm(boundary.box().extent());
   }
 
   void probe(Index t, double local_size) {
@@ -197,19 +198,27 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
     const double twice = norm(area_vector(plc.points[a], plc.points[b], plc.points[c]));
     others += 0.5 * twice * kWallElements / (triangle_size[t] * triangle_size[t]);
   }
-  double floor = limits.proximity;
-  if (!(options.min_size > 0))
-    floor = affordable(prober.patches, options.growth, std::max(kBudget, kBudgetFactor * others), floor,
-                       options.max_size);
-  for (const Patch& patch : prober.patches) {
-    double size = std::max(patch.size, floor);
-    if (patch.size < floor && patch.curvature > 0) {
+  const double budget = std::max(kBudget, kBudgetFactor * others);
+  const auto least = [&](double from, double factor) {
+    if (options.min_size > 0) return from;
+    return affordable(prober.patches, options.growth, factor * budget, from, options.max_size);
+  };
+  for (const Patch& patch : prober.patches) result.wanted = std::min(result.wanted, patch.size);
+  const double floor = least(limits.proximity, 1);
+  for (Patch& patch : prober.patches) {
+    const double wanted = patch.size;
+    patch.size = std::max(wanted, floor);
+    if (wanted < floor && patch.curvature > 0) {
       // Facets of curved faces must not cross the gap: their sagitta stays below a third of its width.
       const double sagitta = std::sqrt(8 * patch.width / (3 * patch.curvature)) / 0.8;
-      size = std::min(size, std::max({sagitta, patch.size, limits.crossing}));
+      patch.size = std::min(patch.size, std::max({sagitta, wanted, limits.crossing}));
     }
+  }
+  // Curved faces in contact (a bolt in its hole) would ask for that everywhere.
+  const double crossing = least(limits.crossing, 2);
+  for (const Patch& patch : prober.patches) {
+    const double size = std::max(patch.size, crossing);
     if (patch.wall) result.walls.push_back(patch.corner);
-    result.wanted = std::min(result.wanted, patch.size);
     result.finest = std::min(result.finest, size);
     if (size < options.max_size)
       sources.push_back(SizeSource::triangle(patch.corner, size, patch.empty_side));

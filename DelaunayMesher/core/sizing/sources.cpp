@@ -5,7 +5,7 @@ namespace dm {
 namespace {
 
 constexpr double kCurvatureFloor = 1.0 / 100;  // of max_size, unless min_size is given
-constexpr double kProximityFloor = 1.0 / 25;
+constexpr double kProximityFloor = 1.0 / 50;
 constexpr double kCrossingFloor = 1.0 / 1000;
 
 double size_of(const std::vector<double>& sizes, Index i) {
