@@ -103,7 +103,7 @@ def test_volume_is_right_but_for_the_facets(name, scale, optimise):
         bound += (areas[chosen] * np.max(away, axis=0)).sum()
     volume, doubt = volume_of(shape)
     assert abs(volume - quality.volumes(mesh.points, mesh.tets).sum()) <= bound + doubt
-    assert bound < 0.06 * volume  # 12 elements per circle
+    assert bound < 0.1 * volume  # with 12 edges round a circle
 
 
 @every_part
