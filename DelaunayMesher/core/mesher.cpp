@@ -52,6 +52,17 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   add("refinement_slivers", static_cast<double>(refinement.slivers));
 }
 
+void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
+  if (recovery.replaced)
+    result.warnings.push_back(
+        std::to_string(recovery.replaced) +
+        " boundary triangles could not be recovered and were replaced by others between the "
+        "same nodes: faces touch or cross each other there");
+  if (refinement.constrained)
+    result.warnings.push_back("in " + std::to_string(refinement.constrained) +
+                              " places the mesh is constrained by the boundary instead of Delaunay");
+}
+
 }  // namespace
 
 MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOptions& options,
@@ -82,6 +93,7 @@ MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOption
   refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
   result.mesh = extract_volume_mesh(labelled);
   record(result, recovery, refinement);
+  warn(result, recovery, refinement);
   clock.stop("refinement");
 
   if (options.optimise) {

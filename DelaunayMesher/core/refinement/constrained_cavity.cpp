@@ -38,7 +38,11 @@ bool ConstrainedSearch::find_cavity(const Vec3& p, Index start, Cavity& cavity) 
   cavity.tets.clear();
   if (!tets_.in_conflict(start, p)) return false;
   collect(p, start, cavity);
-  return collect_border(p, cavity) && is_ball(tets_, cavity);
+  while (drop_unseen(p, cavity)) {
+    if (!is_inside(start)) return false;
+    keep_connected(start, cavity);
+  }
+  return collect_border(cavity) && is_ball(tets_, cavity);
 }
 
 void ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
@@ -58,14 +62,44 @@ void ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
   }
 }
 
-bool ConstrainedSearch::collect_border(const Vec3& p, Cavity& cavity) const {
+// Takes tetrahedra with a border face that p does not see out of the cavity; false when there is none.
+bool ConstrainedSearch::drop_unseen(const Vec3& p, Cavity& cavity) {
+  bool dropped = false;
+  for (const Index t : cavity.tets)
+    for (int i = 0; i < 4 && is_inside(t); ++i) {
+      const bool border = tets_.marked(t, i) || !is_inside(tets_.neighbour(t, i) / 4);
+      if (!border || sees(tets_, p, 4 * t + i)) continue;
+      stamp_[t] = 2 * epoch_;
+      dropped = true;
+    }
+  return dropped;
+}
+
+// What is left of the cavity round `start`.
+void ConstrainedSearch::keep_connected(Index start, Cavity& cavity) {
+  std::vector<Index> inside;
+  for (const Index t : cavity.tets)
+    if (is_inside(t)) inside.push_back(t);
+  ++epoch_;
+  for (const Index t : inside) stamp_[t] = 2 * epoch_;  // seen, not yet reached
+  cavity.tets.assign(1, start);
+  stamp_[start] = 2 * epoch_ + 1;
+  for (std::size_t k = 0; k < cavity.tets.size(); ++k)
+    for (int i = 0; i < 4; ++i) {
+      const Index n = tets_.neighbour(cavity.tets[k], i) / 4;
+      if (tets_.marked(cavity.tets[k], i) || stamp_[n] != 2 * epoch_) continue;
+      stamp_[n] = 2 * epoch_ + 1;
+      cavity.tets.push_back(n);
+    }
+}
+
+bool ConstrainedSearch::collect_border(Cavity& cavity) const {
   for (const Index t : cavity.tets)
     for (int i = 0; i < 4; ++i) {
       const Face g = tets_.neighbour(t, i);
-      const bool inner = stamp_[g / 4] == 2 * epoch_ + 1;
+      const bool inner = is_inside(g / 4);
       if (inner && tets_.marked(t, i)) return false;
       if (inner) continue;
-      if (!sees(tets_, p, 4 * t + i)) return false;
       cavity.border.push_back(4 * t + i);
       cavity.outside.push_back(g);
     }

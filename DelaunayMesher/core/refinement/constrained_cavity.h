@@ -14,12 +14,15 @@ namespace dm {
 class ConstrainedSearch {
  public:
   explicit ConstrainedSearch(const Triangulation& tets) : tets_(tets) {}
-  // Fills tets, border and outside of `cavity`; false when it is no ball, or not visible from p.
+  // Fills tets, border and outside of `cavity`; false when it is no ball round p.
   bool find_cavity(const Vec3& p, Index start, Cavity& cavity);
 
  private:
   void collect(const Vec3& p, Index start, Cavity& cavity);
-  bool collect_border(const Vec3& p, Cavity& cavity) const;
+  bool is_inside(Index tet) const { return stamp_[tet] == 2 * epoch_ + 1; }
+  bool drop_unseen(const Vec3& p, Cavity& cavity);
+  void keep_connected(Index start, Cavity& cavity);
+  bool collect_border(Cavity& cavity) const;
   const Triangulation& tets_;
   std::vector<std::uint32_t> stamp_;  // per slot: 2 * epoch_ = seen, + 1 = in conflict
   std::uint32_t epoch_ = 0;

@@ -175,6 +175,7 @@ class Refinement {
       }
       if (cavity_.border.empty() || ((constrained_ || !big) && is_crowded(cavity_, site))) continue;
       const double s = evaluate_site(mesh_, cavity_, site, bound_, target_, best);
+      if (s == kRejected) ++refused;
       if (s <= target_) return commit_inside(site, constrained_), true;
       if (s < best) best = s, best_site = site, best_constrained = constrained_;
     }
