@@ -19,6 +19,7 @@ class Partition {
       if (complex_.alive(t)) complex_.remove(t);
     claim();
     spread();
+    empty_impossible_contacts();
     return drop_labels_inside() + label_interfaces();
   }
 
@@ -77,6 +78,25 @@ class Partition {
     }
     for (Index t = 0; t < tets_.slot_count(); ++t)
       if (!tets_.is_free(t) && tets_.tag(t) == kUnknown) tets_.set_tag(t, 0);
+  }
+
+  bool can_meet(Index a, Index b) const {
+    return a == b || std::any_of(solids_of_.begin(), solids_of_.end(), [&](const auto& entry) {
+             const auto& s = entry.second;
+             return (s[0] == a && s[1] == b) || (s[0] == b && s[1] == a);
+           });
+  }
+
+  // Where solids meet that no CAD face separates, the tetrahedron between them is left out of both.
+  void empty_impossible_contacts() {
+    for (Index t = 0; t < tets_.slot_count(); ++t) {
+      if (tets_.is_free(t) || tets_.is_ghost(t) || tets_.tag(t) == 0 || !can_meet(tets_.tag(t), 0)) continue;
+      for (int i = 0; i < 4; ++i)
+        if (!can_meet(tets_.tag(t), tets_.tag(tets_.neighbour(t, i) / 4))) {
+          tets_.set_tag(t, 0);
+          break;
+        }
+    }
   }
 
   // A label whose two sides do not agree with it stands for nothing any more.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "base/random.h"
 #include "refinement/angle_test.h"
@@ -20,6 +21,7 @@ constexpr double kFirstPick = 0.1, kPickStep = 0.03, kLargestPick = 0.6;  // f_k
 constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
 constexpr double kLargestSurfacePick = 0.5;
 constexpr double kTriangleFloor = 0.5;  // circumradius over wanted edge: smaller triangles are not split
+constexpr double kWorthARound = 0.8;    // share of slivers left by a round above which there is no other
 constexpr double kSpacing = 0.3;        // least distance of a site from all vertices, over rho
 constexpr double kFarFacet = 4;         // circumradii from which on a site no longer encroaches
 constexpr double kSegmentFloor = 0.6;   // length over wanted edge
@@ -47,10 +49,13 @@ class Refinement {
     sort_along_curve(next_);
     drain();
     sliver_mode_ = true;
-    for (int round = 0; round < options_.sliver_rounds; ++round) {
+    std::size_t before = std::numeric_limits<std::size_t>::max();
+    for (round_ = 1; round_ <= options_.sliver_rounds; ++round_) {
       collect();
       report_.slivers += static_cast<std::int64_t>(next_.size());
-      if (next_.empty()) break;
+      if (next_.empty() || static_cast<double>(next_.size()) > kWorthARound * static_cast<double>(before))
+        break;
+      before = next_.size();
       drain();
     }
   }
@@ -162,7 +167,7 @@ class Refinement {
     for (int k = 0; k < kTries; ++k) {
       const double f = big ? std::min(kLargestPick, kFirstPick + kPickStep * k)
                            : std::min(kSliverLargestPick, kSliverFirstPick + kPickStep * k);
-      Random random(context_.seed, key[0], key[1], key[2], key[3], k);
+      Random random(context_.seed, key[0], key[1], key[2], key[3], k, round_);
       const Vec3 site = sphere.centre + (f * radius) * random.in_ball();
       ++report_.tries;
       constrained_ = constrained;
@@ -339,6 +344,7 @@ class Refinement {
   BoundarySite boundary_site_;
   double expected_sites_;
   bool sliver_mode_ = false, constrained_ = false;
+  int round_ = 0;
   std::vector<char> unsplittable_;  // per labelled triangle: splitting it has failed before
   std::uint64_t steps_ = 0;
   Cavity cavity_;
