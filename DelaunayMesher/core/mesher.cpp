@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "boundary/recovery.h"
+#include "refinement/carve.h"
 #include "refinement/extract.h"
 #include "refinement/refine.h"
 #include "surfaces/remesh.h"
@@ -91,6 +92,7 @@ MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOption
   RefineReport refinement;
   mark_acute_segments(labelled, kAcuteAngle);
   refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
+  result.statistics.emplace_back("flat_tetrahedra_left_out", carve_flat_tets(labelled));
   result.mesh = extract_volume_mesh(labelled);
   record(result, recovery, refinement);
   warn(result, recovery, refinement);

@@ -1,0 +1,80 @@
+#include "refinement/carve.h"
+
+#include <algorithm>
+
+namespace dm {
+
+namespace {
+
+constexpr double kFlatVolume = 1e-9;  // six times the volume over the longest edge cubed
+constexpr int kPasses = 8;
+
+bool is_flat(const Triangulation& tets, Index t) {
+  const Tet& v = tets.corners(t);
+  double longest2 = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j) longest2 = std::max(longest2, norm2(tets.point(v[i]) - tets.point(v[j])));
+  const Vec3 a = tets.point(v[0]);
+  const double volume6 = dot(area_vector(a, tets.point(v[1]), tets.point(v[2])), tets.point(v[3]) - a);
+  return volume6 <= kFlatVolume * longest2 * std::sqrt(longest2);
+}
+
+Index label_of(const LabelledTriangulation& mesh, Index t, int i) {
+  const Tet& v = mesh.tets.corners(t);
+  return mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+}
+
+// The CAD face of an outer boundary triangle of t, or -1 when t is not on the outer boundary alone.
+Index outer_face(const LabelledTriangulation& mesh, Index t) {
+  Index face = -1;
+  for (int i = 0; i < 4; ++i) {
+    const auto beyond = mesh.tets.tag(mesh.tets.neighbour(t, i) / 4);
+    if (beyond != 0 && beyond != mesh.tets.tag(t)) return -1;
+    if (beyond == 0) face = mesh.boundary.face(label_of(mesh, t, i));
+  }
+  return face;
+}
+
+void carve(LabelledTriangulation& mesh, Index t, Index face, const std::array<Index, 2>& solids) {
+  const Tet v = mesh.tets.corners(t);
+  const bool solid_in_front = solids[1] != 0;
+  for (int i = 0; i < 4; ++i) {
+    const Face f = 4 * t + i, across = mesh.tets.neighbour(t, i);
+    if (mesh.tets.marked(t, i)) {
+      mesh.boundary.remove(label_of(mesh, t, i));
+      set_marked_both(mesh.tets, f, false);
+      continue;
+    }
+    Triangle q{v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]};
+    if (corner_in_front(mesh.tets.corners(across / 4), across % 4, q) != solid_in_front)
+      std::swap(q[1], q[2]);
+    for (const Index corner : q)
+      if (mesh.boundary.entity(corner).dimension == 3) mesh.boundary.set_entity(corner, {2, face});
+    mesh.boundary.add(q[0], q[1], q[2], face);
+    set_marked_both(mesh.tets, f, true);
+  }
+  mesh.tets.set_tag(t, 0);
+}
+
+}  // namespace
+
+Index carve_flat_tets(LabelledTriangulation& mesh) {
+  Index carved = 0;
+  for (int pass = 0, changed = 1; changed && pass < kPasses; ++pass) {
+    changed = 0;
+    for (Index t = 0; t < mesh.tets.slot_count(); ++t) {
+      if (mesh.tets.is_free(t) || mesh.tets.tag(t) == 0 || !mesh.tets.marks(t) || !is_flat(mesh.tets, t))
+        continue;
+      const Index face = outer_face(mesh, t);
+      if (face < 0) continue;
+      int i = 0;
+      while (!mesh.tets.marked(t, i) || mesh.boundary.face(label_of(mesh, t, i)) != face) ++i;
+      carve(mesh, t, face, mesh.boundary.solids(label_of(mesh, t, i)));
+      ++changed;
+    }
+    carved += changed;
+  }
+  return carved;
+}
+
+}  // namespace dm
