@@ -30,6 +30,7 @@ EditMesh::EditMesh(VolumeMesh& mesh) : mesh_(mesh) {
     first_extremes_.include(c);
   }
   stamp_.assign(mesh.tets.size(), 0);
+  find_pinched_points();
 }
 
 void EditMesh::build_vertex_tets() {
@@ -93,6 +94,15 @@ void EditMesh::list_stars() {
     if (!removed(t))
       for (Index v : mesh_.tets[t]) star_tets_[end[v]++] = t;
   stars_listed_ = true;
+}
+
+void EditMesh::find_pinched_points() {
+  std::vector<Index> count(mesh_.points.size(), 0);
+  for (const Tet& t : mesh_.tets)
+    for (Index v : t) ++count[v];
+  pinched_.assign(mesh_.points.size(), 0);
+  for (Index v = 0; v < vertex_count(); ++v)
+    if (!interior(v)) pinched_[v] = static_cast<Index>(star(v).size()) != count[v];
 }
 
 std::span<const Index> EditMesh::star(Index v) {
@@ -223,14 +233,6 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
     marks_[open[k].link / 4] |= static_cast<std::uint8_t>(1 << open[k].link % 4);
   }
   return created_;
-}
-
-Index EditMesh::add_point(const Vec3& p, Entity entity) {
-  mesh_.points.push_back(p);
-  mesh_.point_entity.push_back(entity);
-  vertex_tet_.push_back(-1);
-  face_start_.push_back(face_start_.back());
-  return vertex_count() - 1;
 }
 
 void EditMesh::finish() {

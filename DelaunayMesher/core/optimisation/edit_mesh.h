@@ -60,6 +60,9 @@ class EditMesh {
 
   // The tetrahedra at v, in an order given by the data alone.  The span is valid until the next call.
   std::span<const Index> star(Index v);
+  // Is v a boundary point at which parts of the mesh touch that share no face there?  star() finds one of
+  // them only, so such a point must stay.
+  bool pinched(Index v) const { return pinched_[v] != 0; }
   // Lists all stars at once, which makes star() cheap until the next replace().
   void list_stars();
   // Extreme angles of the mesh as it was given.
@@ -85,10 +88,10 @@ class EditMesh {
   // but for those without neighbour: they may change, and the new ones are marked. Returns the slots of the
   // new tetrahedra; the span is valid until the next call.
   std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after);
-  Index add_point(const Vec3& p, Entity entity);
 
  private:
   void build_vertex_tets();
+  void find_pinched_points();
   void build_point_faces();
   void mark_boundary();
   void list_boundary();
@@ -97,6 +100,7 @@ class EditMesh {
   VolumeMesh& mesh_;
   std::vector<double> bad_;
   std::vector<std::uint8_t> marks_;
+  std::vector<char> pinched_;
   std::vector<Index> vertex_tet_, face_start_, point_faces_, free_, stamp_, star_, created_;
   std::vector<Index> star_start_, star_tets_;
   std::unordered_map<Triangle, Index, IndexHash> triangle_of_;  // by sorted corners; filled on first use

@@ -4,7 +4,7 @@ namespace dm {
 
 // Gathers the star of v; false when v is fixed or has too many tetrahedra.
 bool Smoother::load(Index v, bool soft) {
-  if (mesh_.entity(v).dimension < 1 || mesh_.vertex_tet(v) < 0) return false;
+  if (mesh_.entity(v).dimension < 1 || mesh_.vertex_tet(v) < 0 || mesh_.pinched(v)) return false;
   const auto star = mesh_.star(v);
   if (star.size() > Fan::kCapacity) return false;
   place_ = mesh_.point(v);

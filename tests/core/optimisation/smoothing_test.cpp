@@ -112,3 +112,15 @@ TEST_CASE("boundary points slide on a curved face") {
   check_volume_mesh(s.mesh);
   check_on_geometry(s.mesh, geometry, 1e-9);
 }
+
+TEST_CASE("a point at which two parts touch stays") {
+  VolumeMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+  mesh.point_entity.assign(7, {2, 0});
+  mesh.tets = {{0, 1, 2, 3}, {0, 5, 4, 6}};
+  mesh.neighbours.assign(2, {-1, -1, -1, -1});
+  mesh.tet_solid = {1, 1};
+  EditMesh edit(mesh);
+  CHECK(edit.pinched(0));
+  for (Index v = 1; v < 7; ++v) CHECK_FALSE(edit.pinched(v));
+}
