@@ -12,6 +12,7 @@ namespace dm {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kMostReplaced = 0.01;  // share of triangles that the last resort may replace between solids
 constexpr int kMaxRounds = 60;
 constexpr int kWorseRounds =
     2;  // rounds with more missing triangles than ever before: splitting does not help
@@ -391,6 +392,11 @@ LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& pl
                     surface.point_entity[v]);
   const std::vector<Index> missing = Recovery(mesh, geometry, size, context, report).run();
   if (!missing.empty() || !tag_solids(mesh)) report.replaced = partition_solids(mesh, missing);
+  // Touching solids whose faces do not match: the caller can mesh them apart.
+  if (plc.solid_count > 1 && report.replaced > kMostReplaced * static_cast<double>(surface.triangles.size()))
+    throw Failure("boundary", "leak",
+                  "faces of different solids overlap or cross each other: " +
+                      std::to_string(report.replaced) + " boundary triangles are affected");
   return mesh;
 }
 

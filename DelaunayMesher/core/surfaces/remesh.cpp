@@ -17,7 +17,7 @@ namespace dm {
 namespace {
 
 constexpr int kLastAttempt = 4;  // to sample the curves anew before all their old points are kept
-constexpr int kLastRound = 8;
+constexpr int kLastRound = 4;
 constexpr int kNarrowRounds = 2;  // that look for narrow strips
 constexpr int kCapRounds = 2;  // of smaller lengths where two faces cross, before the tessellation is taken
 constexpr double kKeepRadius = 3;     // round a crossing, over half the wanted length
@@ -208,7 +208,9 @@ class SurfaceMesher {
   // Two faces that cross get smaller lengths there.  A face that crosses itself is blamed alone and gets the
   // old points of its curves back thereabouts: between curves that all but touch, the tessellation's points
   // face each other, and chords between others cross.  What does not help is followed by the tessellation.
-  void repair_crossings(const std::vector<Defect>& crossings) {
+  // Faces of solids that merely touch cannot be told apart by smaller triangles: they are left to recovery.
+  void repair_crossings(std::vector<Defect> crossings) {
+    std::erase_if(crossings, [&](const Defect& d) { return !share_solid(d.face, d.other); });
     std::vector<char> crosses(face_count(), 0), crosses_itself(face_count(), 0);
     for (const Defect& d : crossings) crosses_itself[d.face] |= d.face == d.other;
     for (const Defect& d : crossings) crosses[d.face] |= crosses_itself[d.face] || !crosses_itself[d.other];
@@ -221,6 +223,12 @@ class SurfaceMesher {
       else
         lengths_.add_cap(d.place, d.length);
     }
+  }
+
+  bool share_solid(Index f, Index g) const {
+    const auto &a = plc_.face_solids[f], &b = plc_.face_solids[g];
+    const auto in_b = [&](Index solid) { return solid != 0 && (solid == b[0] || solid == b[1]); };
+    return in_b(a[0]) || in_b(a[1]);
   }
 
   void escalate(Index f) {
