@@ -33,7 +33,7 @@ def instructions(error):
         "    bash '%s'" % os.path.join(folder, "scripts", "setup.sh"),
         "",
         tr("Elsewhere, take the wheel for this Python and this system, and unpack it into the workbench:"),
-        "    python -m pip install --no-deps --upgrade --target '%s' DelaunayMesher-...-cp%s-....whl"
+        "    python -m pip install --no-deps --target '%s-core' DelaunayMesher-...-cp%s-....whl"
         % (folder, python.replace(".", "")),
         "",
         tr("Details: %s") % error.message,
