@@ -47,6 +47,7 @@ class BoundaryComplex {
   Index segment(Index a, Index b) const;  // CAD edge of segment (a, b), or -1
   bool is_segment(Index a, Index b) const { return segment(a, b) >= 0; }
   const std::unordered_map<std::uint64_t, Index>& segments() const { return segments_; }
+  static std::uint64_t key(Index a, Index b);  // of an edge, whatever its direction
   static Segment segment_of_key(std::uint64_t key) {
     return {static_cast<Index>(key >> 32), static_cast<Index>(key & 0xffffffff)};
   }
@@ -63,7 +64,6 @@ class BoundaryComplex {
   void split_segment(Index a, Index b, Index v);
 
  private:
-  static std::uint64_t key(Index a, Index b);
   std::vector<LabelledTriangle> triangles_;
   std::vector<std::array<Index, 2>> face_solids_;
   std::vector<Entity> entities_;

@@ -11,7 +11,7 @@ constexpr std::uint16_t kUnknown = 0xffff;
 
 class Partition {
  public:
-  explicit Partition(LabelledTriangulation& mesh) : tets_(mesh.tets), complex_(mesh.boundary) {}
+  explicit Partition(LabelledTriangulation& mesh) : mesh_(mesh), tets_(mesh.tets), complex_(mesh.boundary) {}
 
   Index run(const std::vector<Index>& missing) {
     collect_faces_at_points();
@@ -24,11 +24,6 @@ class Partition {
   }
 
  private:
-  Index label_of(Index tet, int i) const {
-    const Tet& v = tets_.corners(tet);
-    return complex_.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-  }
-
   // CAD faces at every boundary point, before any triangle is removed.
   void collect_faces_at_points() {
     faces_at_.resize(tets_.vertex_count());
@@ -56,7 +51,7 @@ class Partition {
       int n = 0;
       for (int i = 0; i < 4; ++i) {
         if (!tets_.marked(t, i)) continue;
-        const Index label = label_of(t, i);
+        const Index label = label_of(mesh_, t, i);
         const bool front = corner_in_front(tets_.corners(t), i, complex_.corners(label));
         claims[n++] = complex_.solids(label)[front ? 1 : 0];
       }
@@ -106,7 +101,7 @@ class Partition {
       if (tets_.is_free(t) || tets_.is_ghost(t)) continue;
       for (int i = 0; i < 4; ++i) {
         if (!tets_.marked(t, i)) continue;
-        const Index label = label_of(t, i);
+        const Index label = label_of(mesh_, t, i);
         const auto [behind, front] = complex_.solids(label);
         const bool in_front = corner_in_front(tets_.corners(t), i, complex_.corners(label));
         const Index here = tets_.tag(t), beyond = tets_.tag(tets_.neighbour(t, i) / 4);
@@ -167,6 +162,7 @@ class Partition {
         ->first;
   }
 
+  LabelledTriangulation& mesh_;
   Triangulation& tets_;
   BoundaryComplex& complex_;
   std::vector<std::vector<Index>> faces_at_;

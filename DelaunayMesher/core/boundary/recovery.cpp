@@ -372,10 +372,9 @@ bool Recovery::tetrahedron_at_edge(Index a, Index b) const {
 
 // Does the label of face i of tet say that the tetrahedron belongs to its solid?
 bool label_agrees(const LabelledTriangulation& mesh, Index tet, int i) {
-  const Tet& v = mesh.tets.corners(tet);
-  const Index t = mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-  return mesh.boundary.solids(t)[corner_in_front(v, i, mesh.boundary.corners(t)) ? 1 : 0] ==
-         mesh.tets.tag(tet);
+  const Index t = label_of(mesh, tet, i);
+  const bool front = corner_in_front(mesh.tets.corners(tet), i, mesh.boundary.corners(t));
+  return mesh.boundary.solids(t)[front ? 1 : 0] == mesh.tets.tag(tet);
 }
 
 }  // namespace
@@ -412,6 +411,11 @@ Face find_face(const Triangulation& tets, Index a, Index b, Index c) {
     }
     return others == 2 ? 4 * tet + apex : -1;
   });
+}
+
+Index label_of(const LabelledTriangulation& mesh, Index tet, int i) {
+  const Tet& v = mesh.tets.corners(tet);
+  return mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
 }
 
 void set_marked_both(Triangulation& tets, Face f, bool on) {

@@ -36,6 +36,9 @@ LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& pl
 // Face of the triangulation with corners a, b, c, or -1.
 Face find_face(const Triangulation& tets, Index a, Index b, Index c);
 
+// The label of face i of tet, which must be a face between boundary points; -1 when it has none.
+Index label_of(const LabelledTriangulation& mesh, Index tet, int i);
+
 // Marks or unmarks the face `f` on both of its sides.
 void set_marked_both(Triangulation& tets, Face f, bool on);
 

@@ -1,5 +1,7 @@
 #include "refinement/angle_test.h"
 
+#include <algorithm>
+
 namespace dm {
 
 unsigned exempt_angles(const BoundaryComplex& complex, Index v0, Index v1, Index v2, Index v3) {
@@ -21,6 +23,17 @@ double tet_sharpness(const LabelledTriangulation& mesh, Index tet) {
   const auto [a, b, c, d] = mesh.tets.corners(tet);
   const auto& p = mesh.tets.points();
   return sharpness(p[a], p[b], p[c], p[d], exempt_angles(mesh.boundary, a, b, c, d));
+}
+
+bool is_flat(const Triangulation& tets, Index t) {
+  constexpr double kFlatVolume = 1e-9;
+  const Tet& v = tets.corners(t);
+  double longest2 = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j) longest2 = std::max(longest2, norm2(tets.point(v[i]) - tets.point(v[j])));
+  const Vec3 a = tets.point(v[0]);
+  const double volume6 = dot(area_vector(a, tets.point(v[1]), tets.point(v[2])), tets.point(v[3]) - a);
+  return volume6 <= kFlatVolume * longest2 * std::sqrt(longest2);
 }
 
 double evaluate_site(const LabelledTriangulation& mesh, const Cavity& cavity, const Vec3& p,

@@ -4,24 +4,19 @@
 #include <bit>
 #include <optional>
 
+#include "refinement/angle_test.h"
+
 namespace dm {
 
 namespace {
 
 // Angle between the two labelled faces, seen from the tetrahedron, below which it is never handed over.
 constexpr double kBluntAngle = 150;  // degrees
-// Six times the volume over the longest edge cubed, below which a tetrahedron is flat to rounding.
-constexpr double kFlatVolume = 1e-9;
 
 struct Ear {
   int i, j;             // the two labelled faces
   Index first, second;  // their labels
 };
-
-Index label_of(const LabelledTriangulation& mesh, Index tet, int i) {
-  const Tet& v = mesh.tets.corners(tet);
-  return mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-}
 
 // The two labelled faces of one CAD face, if exactly two faces are labelled.
 std::optional<Ear> find_ear(const LabelledTriangulation& mesh, Index tet) {
@@ -53,15 +48,6 @@ bool beyond(const LabelledTriangulation& mesh, Index tet, int i, const Vec3& cen
   return dot(n, p[v[i]] - a) * dot(n, centre - a) < 0;
 }
 
-bool is_flat(const LabelledTriangulation& mesh, Index tet) {
-  const auto [a, b, c, d] = mesh.tets.corners(tet);
-  const auto& p = mesh.tets.points();
-  const double longest2 = std::max({norm2(p[b] - p[a]), norm2(p[c] - p[a]), norm2(p[d] - p[a]),
-                                    norm2(p[c] - p[b]), norm2(p[d] - p[b]), norm2(p[d] - p[c])});
-  const double volume6 = dot(area_vector(p[a], p[b], p[c]), p[d] - p[a]);
-  return volume6 < kFlatVolume * longest2 * std::sqrt(longest2);
-}
-
 bool hand_over(LabelledTriangulation& mesh, Index tet, const Ear& ear) {
   Triangulation& tets = mesh.tets;
   const std::uint16_t other = tets.tag(tets.neighbour(tet, ear.i) / 4);
@@ -85,7 +71,7 @@ bool hand_over(LabelledTriangulation& mesh, Index tet, const Ear& ear) {
 bool peel(LabelledTriangulation& mesh, Index tet, const Vec3& circumcentre, bool sliver) {
   const auto ear = find_ear(mesh, tet);
   if (!ear) return false;
-  const bool misplaced = sliver || beyond(mesh, tet, ear->i, circumcentre) || is_flat(mesh, tet);
+  const bool misplaced = sliver || beyond(mesh, tet, ear->i, circumcentre) || is_flat(mesh.tets, tet);
   return misplaced && angle_between(mesh, *ear) >= kBluntAngle && hand_over(mesh, tet, *ear);
 }
 

@@ -6,11 +6,6 @@ namespace dm {
 
 namespace {
 
-std::uint64_t edge_key(Index a, Index b) {
-  if (a > b) std::swap(a, b);
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b);
-}
-
 bool contains(const std::vector<Index>& list, Index t) {
   return std::find(list.begin(), list.end(), t) != list.end();
 }
@@ -132,11 +127,12 @@ bool BoundarySite::ring_separates_regions() {
     const Tet& v = tets.corners(f / 4);
     Index u[3];
     for (int m = 0; m < 3; ++m) u[m] = v[(f % 4 + 1 + m) & 3];
-    for (int m = 0; m < 3; ++m) sides.push_back({edge_key(u[m], u[(m + 1) % 3]), tets.tag(f / 4)});
+    for (int m = 0; m < 3; ++m)
+      sides.push_back({BoundaryComplex::key(u[m], u[(m + 1) % 3]), tets.tag(f / 4)});
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key < b.key; });
   std::vector<std::uint64_t> ring;
-  for (const RingEdge& e : ring_) ring.push_back(edge_key(e.a, e.b));
+  for (const RingEdge& e : ring_) ring.push_back(BoundaryComplex::key(e.a, e.b));
   std::sort(ring.begin(), ring.end());
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
   std::size_t found = 0;
@@ -162,7 +158,7 @@ const std::vector<Index>& BoundarySite::commit() {
   std::vector<std::uint64_t> ring;
   for (const RingEdge& e : ring_) {
     complex.add(e.a, e.b, v, e.face);
-    ring.push_back(edge_key(e.a, e.b));
+    ring.push_back(BoundaryComplex::key(e.a, e.b));
   }
   std::sort(ring.begin(), ring.end());
   for (const Index tet : cavity_.created) {
@@ -173,7 +169,8 @@ const std::vector<Index>& BoundarySite::commit() {
       int n = 0;
       for (int m = 0; m < 4; ++m)
         if (m != i && q[m] != v) u[n++] = q[m];
-      if (std::binary_search(ring.begin(), ring.end(), edge_key(u[0], u[1]))) tets.set_marked(tet, i, true);
+      if (std::binary_search(ring.begin(), ring.end(), BoundaryComplex::key(u[0], u[1])))
+        tets.set_marked(tet, i, true);
     }
   }
   return cavity_.created;

@@ -2,27 +2,13 @@
 
 #include <algorithm>
 
+#include "refinement/angle_test.h"
+
 namespace dm {
 
 namespace {
 
-constexpr double kFlatVolume = 1e-9;  // six times the volume over the longest edge cubed
 constexpr int kPasses = 8;
-
-bool is_flat(const Triangulation& tets, Index t) {
-  const Tet& v = tets.corners(t);
-  double longest2 = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < i; ++j) longest2 = std::max(longest2, norm2(tets.point(v[i]) - tets.point(v[j])));
-  const Vec3 a = tets.point(v[0]);
-  const double volume6 = dot(area_vector(a, tets.point(v[1]), tets.point(v[2])), tets.point(v[3]) - a);
-  return volume6 <= kFlatVolume * longest2 * std::sqrt(longest2);
-}
-
-Index label_of(const LabelledTriangulation& mesh, Index t, int i) {
-  const Tet& v = mesh.tets.corners(t);
-  return mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-}
 
 // The CAD face of an outer boundary triangle of t, or -1 when t is not on the outer boundary alone.
 Index outer_face(const LabelledTriangulation& mesh, Index t) {

@@ -229,8 +229,7 @@ class Refinement {
       const Face g = tets_.neighbour(tet, i);
       tet = g / 4, i = g % 4;
     }
-    const Tet& v = tets_.corners(tet);
-    return mesh_.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+    return dm::label_of(mesh_, tet, i);
   }
 
   // Splitting a labelled triangle cannot help a site that is many of its radii away.
