@@ -191,3 +191,23 @@ def test_predicates():
     assert _core.insphere(inside).tolist() == [1]
     on = np.concatenate([corners, [[[1.0, 1.0, 1.0]]]], axis=1)
     assert _core.insphere(on).tolist() == [0]
+
+
+def test_no_sliver_under_a_nearly_smooth_edge():
+    """A flat tetrahedron with one face on each side of the ridge cannot change sides: the ridge must stay."""
+    rise, length = 0.05, 4.0
+    y, z = np.array([-1, 1, 1, 0, -1.0]), np.array([0, 0, 1, 1 + rise, 1.0])
+    points = np.concatenate([np.stack([np.full(5, x), y, z], axis=1) for x in (0.0, length)])
+    triangles = [(3, 0, 4), (3, 1, 0), (3, 2, 1), (8, 9, 5), (8, 5, 6), (8, 6, 7)]
+    faces = [0, 0, 0, 1, 1, 1]
+    for k in range(5):
+        a, b = k, (k + 1) % 5
+        triangles += [(a, b, 5 + b), (a, 5 + b, 5 + a)]
+        faces += [2 + k, 2 + k]
+    plc = Plc.from_triangles(points, np.array(triangles), np.array(faces))
+    mesh = DelaunayMesher.mesh(plc, max_size=1.0, optimise=False, seed=27)
+    check_mesh(mesh)
+    assert mesh.quality["min_dihedral"] >= 20
+    ends = mesh.points[mesh.lines]
+    ridge = np.isclose(ends[:, :, 1], 0).all(axis=1) & np.isclose(ends[:, :, 2], 1 + rise).all(axis=1)
+    assert np.ptp(ends[ridge], axis=1)[:, 0].sum() == pytest.approx(length)

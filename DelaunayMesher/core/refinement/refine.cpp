@@ -24,7 +24,8 @@ constexpr double kTriangleFloor = 0.5;  // circumradius over wanted edge: smalle
 constexpr double kWorthARound = 0.8;    // share of slivers left by a round above which there is no other
 constexpr double kSpacing = 0.3;        // least distance of a site from all vertices, over rho
 constexpr double kFarFacet = 4;         // circumradii from which on a site no longer encroaches
-constexpr double kSegmentFloor = 0.6;   // length over wanted edge
+constexpr double kPassable = 0.5;  // angle that a boundary split in place of a sliver may make, over target
+constexpr double kSegmentFloor = 0.6;  // length over wanted edge
 
 class Refinement {
  public:
@@ -39,6 +40,7 @@ class Refinement {
         context_(context),
         report_(report),
         target_(sharpness_of_angle(options.target_angle)),
+        passable_(sharpness_of_angle(kPassable * options.target_angle)),
         constrained_search_(mesh.tets),
         boundary_site_(mesh, bound_, target_),
         expected_sites_(std::max(1.0, size.predicted_tetrahedra() / 5.5)) {}
@@ -142,13 +144,17 @@ class Refinement {
     if (!is_inside(tet)) return;
     const Sphere sphere = sphere_of(tet);
     const bool big = sphere.radius2 > bound_.squared(sphere.centre);
-    const bool sliver = !big && sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
-    if (!big && !sliver) return;
-    if (peel(mesh_, tet, sphere.centre, sliver_mode_ && tet_sharpness(mesh_, tet) > target_)) {
+    const bool sharp = sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
+    if (!big && !sharp) return;
+    if (peel(mesh_, tet, sphere.centre, sharp)) {
       ++report_.flips;
       return;
     }
+    acceptable_ = !sliver_mode_ ? kRejected
+                  : sharp       ? std::min(tet_sharpness(mesh_, tet), passable_)
+                                : target_;
     if (insert_inside(tet, sphere, big, false) || insert_on_boundary(tet)) return;
+    if (sharp && split_own_boundary(tet)) return;
     if (big) insert_inside(tet, sphere, big, true);
   }
 
@@ -264,6 +270,18 @@ class Refinement {
     return true;
   }
 
+  // A flat tetrahedron below a smooth join of CAD faces: its sphere holds next to nothing of the solid, and
+  // its labelled faces cannot be flipped because the CAD edge must stay.
+  bool split_own_boundary(Index tet) {
+    for (int i = 0; i < 4; ++i)
+      if (tets_.marked(tet, i) && split_triangle(dm::label_of(mesh_, tet, i), tet)) return true;
+    const Tet v = tets_.corners(tet);
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j)
+        if (mesh_.boundary.is_segment(v[i], v[j]) && split_segment(v[i], v[j], tet)) return true;
+    return false;
+  }
+
   bool split_triangle(Index t, Index hint) {
     const Triangle q = mesh_.boundary.corners(t);
     const Sphere circle = circumcircle(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
@@ -281,19 +299,22 @@ class Refinement {
       const Vec3 site = geometry_.project_to_face(face, circle.centre + (f * radius) * random.in_ball());
       const SiteVerdict verdict = boundary_site_.propose(site, hint, t, -1, -1);
       if (verdict == SiteVerdict::segment) {
-        segments_.push_back(boundary_site_.swallowed_segment());
+        remember_segment(boundary_site_.swallowed_segment());
         if (k >= kEncroachedTries && best == kRejected) break;
       }
       if (verdict != SiteVerdict::ok || is_crowded(boundary_site_.cavity(), site)) continue;
       if (boundary_site_.quality() <= target_) return commit_boundary(report_.triangle_splits);
       if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
     }
-    if (best < kRejected && !sliver_mode_ &&
-        boundary_site_.propose(best_site, hint, t, -1, -1) == SiteVerdict::ok)
+    if (best < acceptable_ && boundary_site_.propose(best_site, hint, t, -1, -1) == SiteVerdict::ok)
       return commit_boundary(report_.triangle_splits);
     if (split_any_segment(hint)) return true;
     unsplittable_[t] = !sliver_mode_;
     return false;
+  }
+
+  void remember_segment(const Segment& s) {
+    if (std::find(segments_.begin(), segments_.end(), s) == segments_.end()) segments_.push_back(s);
   }
 
   bool split_any_segment(Index hint) {
@@ -318,7 +339,7 @@ class Refinement {
       if (boundary_site_.quality() <= target_) return commit_boundary(report_.segment_splits);
       if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
     }
-    if (best == kRejected || sliver_mode_) return false;
+    if (best >= acceptable_) return false;
     return boundary_site_.propose(best_site, hint, -1, a, b) == SiteVerdict::ok &&
            commit_boundary(report_.segment_splits);
   }
@@ -338,7 +359,9 @@ class Refinement {
   const RefineOptions& options_;
   Context& context_;
   RefineReport& report_;
-  double target_;
+  double target_;                  // sharpness of the target angle
+  double passable_;                // sharpness that a boundary split may leave to the next round of slivers
+  double acceptable_ = kRejected;  // sharpness that a boundary split must stay below
   ConstrainedSearch constrained_search_;
   BoundarySite boundary_site_;
   double expected_sites_;
