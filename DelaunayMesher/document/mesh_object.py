@@ -13,7 +13,7 @@ import FreeCAD
 from ..errors import InputError
 from . import references
 from .femmesh import fem_mesh
-from .placement import shape_to_mesh
+from .placement import own_shape, shape_to_mesh
 from .properties import add_option_properties, get_options, set_options
 
 TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")  # from FreeCAD 1.0; before
@@ -70,6 +70,9 @@ def add_properties(target):
     ):
         if not hasattr(target, name):
             target.addProperty("App::PropertyString", name, "Result", text, 0, True, hidden)
+    if not hasattr(target, "RunNumber"):
+        text = "Number of the run that made the mesh; undo goes by it"
+        target.addProperty("App::PropertyInteger", "RunNumber", "Result", text, 0, True, True)
 
 
 def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
@@ -81,7 +84,7 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
     """
     from ..options import make_options
 
-    if getattr(part, "Shape", None) is None:
+    if own_shape(part) is None:
         raise InputError("options", "no_shape", "%s has no shape to mesh" % getattr(part, "Label", part))
     chosen = make_options(None, **options)
     if chosen.regions or chosen.size_points is not None:
@@ -192,6 +195,11 @@ def mesh_shape(shape, options, report=None, keep=()):
 def store(target, mesh, filled):
     """Put a finished mesh and its report into the object (only from the thread of the window)."""
     target.FemMesh = filled
+    describe(target, mesh)
+
+
+def describe(target, mesh):
+    """Say in the object what its mesh is like."""
     target.Summary = summary(mesh)
     target.Report = json.dumps(shortened(mesh.report()))
 

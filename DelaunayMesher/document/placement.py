@@ -12,16 +12,33 @@ def version():
 
 def shape_to_mesh(item):
     """The shape of `item` at the placement at which this FreeCAD's constraints search the mesh."""
-    return global_shape(item) if version() >= GLOBAL_SINCE else item.Shape
+    return global_shape(item) if version() >= GLOBAL_SINCE else own_shape(item)
+
+
+def own_shape(item):
+    """The shape of `item` with its own placement (for a container of parts, of what it contains), or None."""
+    shape = getattr(item, "Shape", None)
+    if shape is None and hasattr(item, "TypeId"):
+        import Part
+
+        found = Part.getShape(item)
+        shape = None if found.isNull() else found
+    return shape
 
 
 def global_shape(item):
-    """The shape of `item` where it stands in the document (inside parts with placements)."""
-    if not hasattr(item, "getGlobalPlacement") or not hasattr(item, "Placement"):
-        return item.Shape
-    outer = item.getGlobalPlacement().multiply(item.Placement.inverse())
-    if outer.isIdentity():
-        return item.Shape
-    shape = item.Shape.copy()
+    """The shape of `item` where it stands in the document (inside parts with placements), or None."""
+    shape, outer = own_shape(item), outer_placement(item)
+    if shape is None or outer is None or outer.isIdentity():
+        return shape
+    shape = shape.copy()
     shape.Placement = outer.multiply(shape.Placement)
     return shape
+
+
+def outer_placement(item):
+    """What the parts around `item` do to its shape; None where FreeCAD does not know."""
+    if hasattr(item, "getGlobalPlacement") and hasattr(item, "Placement"):
+        return item.getGlobalPlacement().multiply(item.Placement.inverse())
+    group = item.getParentGeoFeatureGroup()  # links have no global placement of their own
+    return group.getGlobalPlacement() if group else None

@@ -7,6 +7,7 @@ then looked for by its geometry.
 """
 
 from ..errors import InputError
+from .placement import own_shape
 
 REFINEMENT_LISTS = ("MeshRegionList", "MeshRefinementList")  # up to FreeCAD 1.1, and later
 
@@ -25,7 +26,7 @@ def referred_names(references, part, shape):
 
 def all_solids(item):
     """A reference to a whole object means its solids."""
-    return ["Solid%d" % (number + 1) for number in range(len(item.Shape.Solids))]
+    return ["Solid%d" % (number + 1) for number in range(len(own_shape(item).Solids))]
 
 
 def find_element(item, element, shape):

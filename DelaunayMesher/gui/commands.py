@@ -79,6 +79,7 @@ COMMANDS = {
     "DelaunayMesher_Quality": ShowQuality(),
 }
 NAMES = list(COMMANDS)
+WITH_SHAPE = ("Part::Feature", "App::Part")
 IN_FEM = ["DelaunayMesher_MeshSolid", "DelaunayMesher_RefineFaces", "DelaunayMesher_Quality"]
 
 
@@ -125,8 +126,6 @@ def body_of(item):
 
 
 def is_part(item):
-    """Whether an object has a shape of its own (a feature, a body, or a link to one)."""
-    if item.isDerivedFrom("Part::Feature"):
-        return True
-    linked = item.getLinkedObject(True) if hasattr(item, "getLinkedObject") else None
-    return linked is not None and linked != item and linked.isDerivedFrom("Part::Feature")
+    """Whether an object has a shape: a feature, a body, a part container, or a link to one."""
+    linked = item.getLinkedObject(True) if hasattr(item, "getLinkedObject") else item
+    return any(linked.isDerivedFrom(kind) for kind in WITH_SHAPE)

@@ -32,7 +32,9 @@ def instructions(error):
         tr("On Debian, run in a terminal, then start FreeCAD again:"),
         "    bash '%s'" % os.path.join(folder, "scripts", "setup.sh"),
         "",
-        tr("Elsewhere, take the wheel for this Python and this system, and unpack it into the workbench:"),
+        tr(
+            "Elsewhere, install the wheel for this Python and this system into a folder beside the workbench:"
+        ),
         "    python -m pip install --no-deps --target '%s-core' DelaunayMesher-...-cp%s-....whl"
         % (folder, python.replace(".", "")),
         "",

@@ -12,10 +12,11 @@ import traceback
 import FreeCAD
 from PySide import QtCore
 
-from ..document import mesh_object
+from ..document import history, mesh_object
 from ..document.femmesh import fem_mesh
 from ..errors import MeshCancelled, MeshError
 from ..progress import Progress
+from .texts import tr
 
 LONGEST_STOP = 5.0  # seconds that the end of FreeCAD waits for a thread
 unfinished = []
@@ -107,11 +108,23 @@ class MeshJob:
         return document.getObject(self.where[1]) if document else None
 
     def store(self, target):
-        """Put the finished mesh into the mesh object.
+        """Put the finished mesh into the mesh object and show it: one step that can be undone.
 
-        No step to undo: FreeCAD's undo brings the old properties back, but never an old FEM mesh, and report
-        and mesh would no longer belong together.
+        The mesh itself stays out of FreeCAD's transaction, which cannot bring an old one back.
         """
-        mesh_object.store(target, self.mesh, self.filled)
+        history.keep_present(target)
+        target.FemMesh = self.filled
+        target.Document.openTransaction(tr("Delaunay mesh run"))
+        mesh_object.describe(target, self.mesh)
+        history.number_run(target, self.mesh, self.groups)
+        show_mesh_instead_of_part(target)
+        target.Document.commitTransaction()
         self.mesh = self.filled = None
         target.recompute()
+
+
+def show_mesh_instead_of_part(target):
+    """Both at once would hide each other's faces."""
+    target.ViewObject.show()
+    if target.Shape and target.Shape.ViewObject:
+        target.Shape.ViewObject.hide()

@@ -46,6 +46,7 @@ def store_value(option, value):
 def options_for(part):
     """{name: value} that differs from the table's defaults, for a new mesh of `part`."""
     from ..document import estimate
+    from ..document.placement import own_shape
 
     chosen = {option.name: stored_value(option) for option in stored_options()}
     changed = {
@@ -53,7 +54,8 @@ def options_for(part):
         for option in stored_options()
         if chosen[option.name] != option.default
     }
-    size = estimate.suggested_size(part.Shape)
+    shape = own_shape(part)
+    size = estimate.suggested_size(shape) if shape else 0.0
     return {"max_size": size, **changed} if size else changed
 
 

@@ -50,6 +50,7 @@ def create(mesh, part, names):
 def starting_size(mesh, part):
     """A size to start from in mm."""
     from ..document import estimate
+    from ..document.placement import own_shape
 
-    size = mesh.MaxSize.Value or estimate.automatic_size(part.Shape)
+    size = mesh.MaxSize.Value or estimate.automatic_size(own_shape(part))
     return estimate.two_digits(size / SHARE_OF_SIZE)

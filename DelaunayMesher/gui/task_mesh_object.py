@@ -9,6 +9,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..document import estimate, mesh_object
+from ..document.placement import own_shape
 from ..document.properties import get_option, set_option
 from ..errors import MeshError
 from ..options import OPTIONS
@@ -94,8 +95,12 @@ class MeshPanel:
             self.run_box.fail(job.error, job.seconds)
             return
         job.store(target)
-        show_mesh_instead_of_part(target)
         self.run_box.succeed(job, mesh_object.stored_report(target))
+
+    def follow(self):
+        """The mesh object's report has changed, by undo for instance."""
+        if not self.running:
+            self.run_box.show_report(mesh_object.stored_report(self.target))
 
     def show_quality(self):
         """Close this panel and open the one about quality, after the button has dealt with the click."""
@@ -125,7 +130,7 @@ class OptionsBox(QtGui.QWidget):
         super().__init__()
         self.setWindowTitle(tr("Mesh of %s") % target.Shape.Label if target.Shape else target.Label)
         self.setWindowIcon(QtGui.QIcon(icon("mesh_solid")))
-        self.shape = target.Shape.Shape if target.Shape else None
+        self.shape = own_shape(target.Shape) if target.Shape else None
         self.fields = {option.name: make_field(option) for option in OPTIONS}
         self.count = QtGui.QLabel()
         self.count.setWordWrap(True)
@@ -230,10 +235,3 @@ def widen_dock(box):
     for dock in window.findChildren(QtGui.QDockWidget):
         if dock.isAncestorOf(box) and not dock.isFloating() and dock.width() < wanted:
             window.resizeDocks([dock], [wanted], QtCore.Qt.Horizontal)
-
-
-def show_mesh_instead_of_part(target):
-    """Both at once would hide each other's faces."""
-    target.ViewObject.show()
-    if target.Shape and target.Shape.ViewObject:
-        target.Shape.ViewObject.hide()

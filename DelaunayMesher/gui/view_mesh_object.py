@@ -29,7 +29,11 @@ class VPMeshDelaunay:
         return icon("mesh_object")
 
     def updateData(self, target, name):
-        """Nothing is shown beside what FreeCAD shows."""
+        """An open panel shows the figures of the mesh that undo or redo has brought back."""
+        if name == "Report":
+            panel = open_panel(target)
+            if panel:
+                panel.follow()
 
     def onChanged(self, view, name):
         """Nothing follows from view properties."""
@@ -117,6 +121,16 @@ class VPMeshDelaunay:
 
     __getstate__ = dumps
     __setstate__ = loads
+
+
+def open_panel(target):
+    """The panel that edits this mesh object at the moment, or None."""
+    edited = FreeCADGui.getDocument(target.Document.Name).getInEdit()
+    if edited is None or edited.Object != target:
+        return None
+    from . import task_mesh_object
+
+    return task_mesh_object.MeshPanel.current
 
 
 def list_name(mesh, item):

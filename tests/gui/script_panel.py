@@ -126,7 +126,7 @@ def close_and_undo(target):
     document = target.Document
     steps = list(document.UndoNames)
     say("undo:", steps)
-    assert steps[0] == "Mesh options" and steps[-1] == "Delaunay mesh"
+    assert steps[0] == "Mesh options" and steps[-1] == "Delaunay mesh" and "Delaunay mesh run" in steps
     document.undo()
     assert abs(target.MinSize.Value - 5.0) < 1e-9
     document.redo()
@@ -139,6 +139,34 @@ def close_and_undo(target):
         document.redo()
     assert document.getObject("FEMMeshDelaunay").FemMesh.NodeCount == count
     return document
+
+
+def undo_a_run(target):
+    """A run is one step: undo brings the old mesh back, redo the new one; the panel tells their figures."""
+    panel = drive.panel()
+    first = figures(target)
+    panel.options_box.fields["max_size"].write(2.0)
+    panel.run_box.button.click()
+    wait_until(lambda: not panel.running)
+    second = figures(target)
+    say("first run:", first[:3], "second run:", second[:3])
+    assert second[1] < first[1] and target.Document.UndoNames[0] == "Delaunay mesh run"
+    target.Document.undo()
+    assert figures(target) == first and not target.Shape.ViewObject.Visibility
+    wait(0.1)
+    assert "{:,d}".format(first[1]).replace(",", "\u202f") in panel.run_box.result.text()
+    target.Document.redo()
+    assert figures(target) == second
+    target.Document.undo()
+    target.Document.undo()  # the options
+    assert target.MaxSize.Value == 1.0
+    panel.options_box.fields["max_size"].write(1.0)
+
+
+def figures(target):
+    """What tells one mesh from another, and the report of the run that made it."""
+    mesh = target.FemMesh
+    return mesh.NodeCount, mesh.VolumeCount, mesh.GroupCount, mesh.Volume.Value, target.Summary
 
 
 def reopen(document):
@@ -182,6 +210,7 @@ def main():
     target = mesh_from_panel(document, cut, analysis)
     drive.view_all()
     drive.picture("panel")
+    undo_a_run(target)
     cancel_in_the_middle(target)
     errors_are_shown(target)
     document = close_and_undo(target)

@@ -1,0 +1,120 @@
+"""In FreeCAD's window: parts inside parts, links, bodies and compounds are meshed where FreeCAD looks for
+their faces.
+"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import drive
+import FreeCAD
+import FreeCADGui
+from drive import say, wait, wait_until
+
+TURNED = FreeCAD.Placement(FreeCAD.Vector(100, 0, 0), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 90))
+
+
+def make_assembly():
+    """A box in a turned part, links to both, one of them in a moved part, a body and a compound there too."""
+    document = FreeCAD.newDocument("Assembly")
+    turned = document.addObject("App::Part", "Turned")
+    turned.Placement = TURNED
+    box = document.addObject("Part::Box", "Box")
+    box.Length, box.Width, box.Height = 10, 20, 30
+    box.Placement.Base = FreeCAD.Vector(0, 20, 0)
+    turned.addObject(box)
+    link = document.addObject("App::Link", "Link")
+    link.setLink(box)
+    link.Placement.Base = FreeCAD.Vector(0, 0, 300)
+    link_to_part = document.addObject("App::Link", "LinkToPart")
+    link_to_part.setLink(turned)
+    link_to_part.Placement.Base = FreeCAD.Vector(0, 0, 700)
+    moved = document.addObject("App::Part", "Moved")
+    moved.Placement.Base = FreeCAD.Vector(0, 500, 0)
+    inner = document.addObject("App::Link", "Inner")
+    inner.setLink(box)
+    inner.Placement.Base = FreeCAD.Vector(0, 0, 90)
+    body = document.addObject("PartDesign::Body", "Body")
+    body.addObject(document.addObject("PartDesign::AdditiveBox", "Block"))
+    body.Placement.Base = FreeCAD.Vector(7, 0, 0)
+    source = document.addObject("Part::Box", "Source")
+    compound = document.addObject("Part::Compound", "Compound")
+    compound.Links = [source]
+    compound.Placement.Base = FreeCAD.Vector(0, 0, -50)
+    for item in (inner, body, compound):
+        moved.addObject(item)
+    document.recompute()
+    drive.view_all()
+    return document
+
+
+def mesh(document, chosen, element):
+    """Select as a click in tree or view does, mesh from the panel; returns the mesh object."""
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(document.Name, chosen, element)
+    wait(0.1)
+    assert FreeCADGui.Command.get("DelaunayMesher_MeshSolid").isActive()
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.2)
+    panel = drive.panel()
+    panel.options_box.fields["max_size"].write(5.0)
+    panel.run_box.button.click()
+    wait_until(lambda: not panel.running)
+    assert panel.target.FemMesh.VolumeCount > 20, panel.run_box.log.toPlainText()
+    assert panel.reject()
+    wait(0.1)
+    return panel.target
+
+
+def corners(box):
+    """Bounding box as numbers."""
+    low, high = (box.XMin, box.YMin, box.ZMin), (box.XMax, box.YMax, box.ZMax)
+    return [round(number, 6) + 0.0 for number in low + high]
+
+
+def expected(own, everywhere):
+    """FreeCAD 1.0 and later look at the place in the document, earlier ones at the object's own."""
+    return everywhere if drive.version() >= (1, 0) else own
+
+
+# A container's shape is that of its visible parts: it comes before the box, which a run hides.
+CASES = (  # selected object, element below it, meshed object, own and global bounding box
+    ("Turned", "", "Turned", [60, 0, 0, 80, 10, 30], [60, 0, 0, 80, 10, 30]),
+    ("Link", "Face2", "Link", [0, 0, 300, 10, 20, 330], [0, 0, 300, 10, 20, 330]),
+    ("LinkToPart", "", "LinkToPart", [0, 20, 700, 10, 40, 730], [0, 20, 700, 10, 40, 730]),
+    ("Turned", "Box.Face1", "Box", [0, 20, 0, 10, 40, 30], [60, 0, 0, 80, 10, 30]),
+    ("Moved", "Inner.Face1", "Inner", [0, 0, 90, 10, 20, 120], [0, 500, 90, 10, 520, 120]),
+    ("Moved", "Body.Block.Face1", "Body", [7, 0, 0, 17, 10, 10], [7, 500, 0, 17, 510, 10]),
+    ("Moved", "Compound.Face1", "Compound", [0, 0, -50, 10, 10, -40], [0, 500, -50, 10, 510, -40]),
+)
+
+
+def nodes_are_found(target):
+    """FreeCAD's own search finds the nodes of a face."""
+    try:
+        from femmesh.meshtools import sub_shape_at_global_placement
+    except ImportError:  # before 1.0
+        face = target.Shape.Shape.getElement("Face1")
+    else:
+        if not hasattr(target.Shape, "getGlobalPlacement") or target.Shape.isDerivedFrom("App::Part"):
+            return  # a link or a container: FreeCAD itself cannot look there
+        face = sub_shape_at_global_placement(target.Shape, "Face1")
+    assert len(target.FemMesh.getNodesByFace(face)) >= 8
+
+
+def main():
+    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
+    wait(0.3)
+    document = make_assembly()
+    for chosen, element, meshed, own, everywhere in CASES:
+        target = mesh(document, chosen, element)
+        found = corners(target.FemMesh.BoundBox)
+        say(chosen, element, "->", target.Shape.Name, found)
+        assert target.Shape.Name == meshed and found == expected(own, everywhere)
+        nodes_are_found(target)
+    drive.view_all()
+    drive.picture("places")
+
+
+drive.start(main, "PLACES")
