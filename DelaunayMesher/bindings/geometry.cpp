@@ -6,6 +6,7 @@
 #include "functions.h"
 #include "inputs.h"
 #include "sizing/size_field.h"
+#include "surfaces/crossings.h"
 #include "surfaces/remesh.h"
 
 namespace dm::python {
@@ -62,6 +63,17 @@ nb::dict surface_mesh(const nb::dict& plc, const nb::object& records, const nb::
   return out;
 }
 
+nb::object crossings(const Table<double>& points, const Table<Index>& triangles) {
+  const std::vector<Vec3> places = rows<Vec3, double>(points, "points");
+  const std::vector<Triangle> corners = rows<Triangle, Index>(triangles, "triangles");
+  std::vector<std::array<Index, 2>> pairs;
+  {
+    const nb::gil_scoped_release release;
+    pairs = find_crossings(places, corners);
+  }
+  return to_numpy<Index>(std::move(pairs));
+}
+
 }  // namespace
 
 void add_geometry(nb::module_& module) {
@@ -72,6 +84,8 @@ void add_geometry(nb::module_& module) {
              nb::arg("points"), "The size field (n,) in mm at points (n, 3).");
   module.def("surface_mesh", &surface_mesh, nb::arg("plc"), nb::arg("geometry").none(), nb::arg("options"),
              "The boundary triangulation as a dict of arrays.");
+  module.def("crossings", &crossings, nb::arg("points"), nb::arg("triangles"),
+             "Pairs (k, 2) of triangles (m, 3) whose interiors cross, or overlap in a common plane.");
 }
 
 }  // namespace dm::python

@@ -15,7 +15,6 @@ from ..sizing import AUTOMATIC_FRACTION
 from .closed import open_triangles, solid_volumes
 from .shape_plc import ShapePlc, face_names
 from .tessellation import face_sides, tessellate
-from .touching import overlap
 
 LINEAR_SHARE = 0.02  # of the element size
 WALL_SHARE = 0.1  # of the thickness of the thinnest solid
@@ -26,10 +25,15 @@ ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (4.0, 1.6))
 
 
 def plc_from_shape(shape, options=None, keep=()):
-    """The Plc of a Part shape; see convert().  Raises MeshError (stage 'plc'), also for overlapping faces."""
+    """The Plc of a Part shape; see convert().  Raises MeshError (stage 'plc'), also when it needs several."""
     converted = convert(shape, options, keep)
     if len(converted.plcs) > 1:
-        raise overlap(*converted.contacts.conflicts[0])
+        raise MeshError(
+            "plc",
+            "several_parts",
+            "the shape has %d solids or groups of solids that share no face; convert() gives a PLC of each"
+            % len(converted.plcs),
+        )
     return converted.plcs[0]
 
 

@@ -1,8 +1,8 @@
-"""A closed tessellation -> PLCs: one, or several when solids overlap.
+"""A closed tessellation -> PLCs: one for each group of solids that share something.
 
-Solids that touch on equal faces share an interface.  Solids whose faces overlap otherwise go into different
-PLCs, which are meshed one after the other: their meshes do not fit together where they touch.  All PLCs count
-faces, edges and vertices as the whole shape does.
+Solids that touch on equal faces share an interface.  Solids that share nothing go into different PLCs, which
+are meshed one after the other: their meshes do not fit together where they touch.  All PLCs count faces,
+edges and vertices as the whole shape does.
 """
 
 from dataclasses import replace
@@ -34,21 +34,22 @@ class ShapePlc:
         self.mesh, self.sides = mesh, sides
         self.contacts = find_contacts(mesh, sides)
         self.geometry = Geometry(mesh, keep)
-        solids = len(mesh.shape.Solids)
         self._aliases = {}
-        self.plcs = [self.plc_of(group) for group in groups_of_solids(solids, sides, self.contacts)]
+        groups = groups_of_solids(mesh.shape, sides, self.contacts)
+        self.plcs = [self.plc_of(group) for group in groups]
         warnings = [*warnings, *self.geometry.warnings]
         loose = (sides[mesh.triangle_face] == 0).all(axis=1)
         if loose.any():
             names = face_names(mesh.triangle_face[loose])
             warnings.append("faces that belong to no solid are left out: %s" % names)
-        if len(self.plcs) > 1:
-            warnings.append(apart_warning(self.contacts.conflicts))
+        touching = self.contacts.pairs()
+        if len(groups) > 1 and touching:
+            warnings.append(apart_warning(touching))
         self.plcs[0].warnings[:0] = warnings
 
     @property
     def plc(self):
-        """The first PLC: the only one, unless faces overlap."""
+        """The first PLC: the only one, unless there are solids that share nothing."""
         return self.plcs[0]
 
     @property
@@ -156,14 +157,14 @@ def only(kinds, spline, records, used):
     return kinds, renumbered, [records[number] for number in numbers.tolist()]
 
 
-def apart_warning(conflicts):
-    """What to know about solids that are meshed apart."""
-    pairs = ["%s and %s" % (entity_name(2, a), entity_name(2, b)) for a, b, _ in conflicts[:NAMED]]
-    more = "" if len(conflicts) <= NAMED else ", ... (%d pairs in all)" % len(conflicts)
+def apart_warning(touching):
+    """What to know about solids that touch and are meshed apart; touching: pairs of faces."""
+    pairs = ["%s and %s" % (entity_name(2, a), entity_name(2, b)) for a, b in touching[:NAMED]]
+    more = "" if len(touching) <= NAMED else ", ... (%d pairs in all)" % len(touching)
     return (
-        "faces of different solids overlap without being one face, so the meshes of these solids do not fit "
-        "together there: %s%s. For a mesh that does, cut the part with Boolean Fragments (mode CompSolid)"
-        % (", ".join(pairs), more)
+        "faces of different solids touch or cross without being one face, so the meshes of these solids do "
+        "not fit together there: %s%s. For a mesh that does, cut the part with Boolean Fragments (mode "
+        "CompSolid)" % (", ".join(pairs), more)
     )
 
 

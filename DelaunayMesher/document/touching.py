@@ -3,6 +3,7 @@
 Two faces are equal when their triangles are, or when their outlines are and one lies on the other (OCC cuts
 the two into triangles differently then).  One of them keeps its triangles, with a solid on each side, and the
 other becomes its alias.  Faces that overlap otherwise are conflicts: their solids cannot be in one PLC.
+Solids that share nothing are meshed apart, so it does no harm when they touch or overlap; it is reported.
 """
 
 from dataclasses import dataclass, field
@@ -11,7 +12,9 @@ import numpy as np
 import Part
 from FreeCAD import Vector
 
+from .. import extension
 from ..errors import MeshError, entity_name
+from .tessellation import ShapeIndex
 
 SAMPLES = 3  # points of a face that must lie on its twin
 
@@ -28,11 +31,17 @@ class Aliases:
 @dataclass
 class Contacts:
     """How faces of different solids touch: `equal` (first, second, mirrored) faces that can become one,
-    `conflicts` (first, second, place) that overlap otherwise, `folded` rows of triangles to leave out."""
+    `conflicts` (first, second, place) that have some triangles in common, `crossing` (first, second) whose
+    triangles overlap or cross, `folded` rows of triangles to leave out."""
 
     equal: list
     conflicts: list
+    crossing: list
     folded: np.ndarray
+
+    def pairs(self):
+        """[(face, other face), ...] that cannot be in one PLC, unless their solids share another face."""
+        return [*((first, second) for first, second, _ in self.conflicts), *self.crossing]
 
 
 def find_contacts(mesh, sides):
@@ -45,7 +54,7 @@ def find_contacts(mesh, sides):
     order = np.lexsort((pairs[:, 1], pairs[:, 0]))
     starts = np.flatnonzero(np.diff(pairs[order], axis=0, prepend=-1).any(axis=1))
     twins = find_twins(mesh, sides) if len(mesh.shape.Solids) > 1 else {}
-    contacts = Contacts([], [], np.zeros(len(triangles), dtype=bool))
+    contacts = Contacts([], [], [], np.zeros(len(triangles), dtype=bool))
     for rows in np.split(doubled[order], starts[1:]) if len(starts) else ():
         first, second = int(owner[rows[0]]), int(owner[partner[rows[0]]])
         if not sides[first].any() or not sides[second].any():
@@ -67,6 +76,8 @@ def find_contacts(mesh, sides):
             contacts.conflicts.append((first, second, place))
         else:
             contacts.equal.append((first, second, mirrored))
+    if len(mesh.shape.Solids) > 1:
+        contacts.crossing = crossing_faces(mesh, sides, contacts.equal)
     return contacts
 
 
@@ -131,30 +142,56 @@ def merge_equal_faces(equal, triangle_face, sides, aliases):
     return ~dropped[triangle_face], sides
 
 
-def groups_of_solids(solid_count, sides, contacts):
-    """Lists of solids (1-based) that are meshed together, one list when nothing overlaps.
+def groups_of_solids(shape, sides, contacts):
+    """Lists of solids (1-based) that are meshed together: those that share a face, a vertex or equal faces.
 
-    With conflicts: solids that share a face stay together, then those with equal faces as long as no two of a
-    group are in conflict.  Raises MeshError when solids that share a face overlap elsewhere.
+    Solids with a face in common are always together, the others as long as no two of a group are in conflict.
+    Raises MeshError when solids that share a face overlap elsewhere.
     """
-    if not contacts.conflicts:
-        return [list(range(1, solid_count + 1))]
-    group = np.arange(solid_count + 1)
-    shared = sides[(sides > 0).all(axis=1) & (sides[:, 0] != sides[:, 1])]
-    for a, b in shared.tolist():
+    count = len(shape.Solids)
+    group = np.arange(count + 1)
+    for a, b in sides[(sides > 0).all(axis=1)].tolist():
         group[group == group[b]] = group[a]
-    enemies = np.zeros((solid_count + 1, solid_count + 1), dtype=bool)
     for first, second, place in contacts.conflicts:
-        for a in sides[first][sides[first] > 0]:
-            for b in sides[second][sides[second] > 0]:
-                if group[a] == group[b]:
-                    raise overlap(first, second, place)
-                enemies[a, b] = enemies[b, a] = True
-    for first, second, _ in contacts.equal:
-        a, b = sides[first].max(), sides[second].max()
+        if any(group[a] == group[b] for a, b in solid_pairs(sides, first, second)):
+            raise overlap(first, second, place)
+    enemies = np.zeros((count + 1, count + 1), dtype=bool)
+    for first, second in contacts.pairs():
+        for a, b in solid_pairs(sides, first, second):
+            enemies[a, b] = enemies[b, a] = group[a] != group[b]
+    equal = [(sides[first].max(), sides[second].max()) for first, second, _ in contacts.equal]
+    for a, b in [*equal, *solids_with_common_vertices(shape)]:
         if group[a] != group[b] and not enemies[np.ix_(group == group[a], group == group[b])].any():
             group[group == group[b]] = group[a]
     return [(np.flatnonzero(group[1:] == number) + 1).tolist() for number in np.unique(group[1:])]
+
+
+def solid_pairs(sides, first, second):
+    """[(solid, solid), ...] of the solids on both sides of two faces."""
+    return [(a, b) for a in sides[first].tolist() for b in sides[second].tolist() if a > 0 and b > 0]
+
+
+def solids_with_common_vertices(shape):
+    """[(solid, other solid), ...] (1-based) that a vertex of the shape connects."""
+    vertices = ShapeIndex(shape.Vertexes)
+    pairs, first = [], {}
+    for number, solid in enumerate(shape.Solids, 1):
+        for vertex in solid.Vertexes:
+            other = first.setdefault(vertices.find(vertex), number)
+            if other != number:
+                pairs.append((other, number))
+    return pairs
+
+
+def crossing_faces(mesh, sides, equal):
+    """[(face, other face), ...] of different solids whose triangles cross or overlap, but equal ones."""
+    live = np.flatnonzero(sides[mesh.triangle_face].any(axis=1))
+    found = extension.load().crossings(mesh.points, mesh.triangles[live].astype(np.int32))
+    pairs = np.unique(np.sort(mesh.triangle_face[live[found]], axis=1), axis=0)
+    a, b = sides[pairs[:, 0]], sides[pairs[:, 1]]
+    common = ((a[:, :, None] == b[:, None, :]) & (a[:, :, None] != 0)).any(axis=(1, 2))
+    known = {tuple(sorted(pair[:2])) for pair in equal}
+    return [pair for pair in map(tuple, pairs[~common].tolist()) if pair not in known]
 
 
 def coincident_triangles(triangles):

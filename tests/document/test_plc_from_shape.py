@@ -214,9 +214,41 @@ def partly_touching():
 
 
 def test_solids_that_overlap_are_no_single_plc():
-    with pytest.raises(MeshError, match="overlap") as caught:
+    with pytest.raises(MeshError, match="3 solids") as caught:
         plc_from_shape(partly_touching())
-    assert caught.value.stage == "plc" and caught.value.entity and caught.value.place
+    assert caught.value.stage == "plc" and caught.value.code == "several_parts"
+
+
+def test_solids_that_share_nothing_become_plcs_of_their_own():
+    box = Part.makeBox(10, 10, 10)
+    far = Part.makeBox(10, 10, 10, Vector(30, 0, 0))
+    converted = convert(Part.makeCompound([box, far]))
+    assert [plc.solid_numbers.tolist() for plc in converted.plcs] == [[1], [2]]
+    assert not any(plc.warnings for plc in converted.plcs)
+
+
+@pytest.mark.parametrize("turn", [0.0, 33.0])
+def test_solids_that_touch_partly_are_named(turn):
+    plate = Part.makeBox(10, 10, 2)
+    washer = Part.makeCylinder(3, 1, Vector(5, 5, 2)).cut(Part.makeCylinder(1, 1, Vector(5, 5, 2))).Solids[0]
+    beside = Part.makeBox(10, 4, 2, Vector(10, 0, 0))
+    shape = Part.makeCompound([plate, washer, beside])
+    shape.Placement = Placement(Vector(1, 2, 3), Rotation(Vector(1, 2, 3), turn))
+    converted = convert(shape)
+    assert len(converted.plcs) == 3
+    touching = {frozenset(pair) for pair in converted.contacts.pairs()}
+    owner = [number for number, solid in enumerate(shape.Solids) for _ in solid.Faces]
+    assert {frozenset(owner[face] for face in pair) for pair in touching} == {
+        frozenset((0, 1)),
+        frozenset((0, 2)),
+    }
+    assert "Boolean Fragments" in converted.plc.warnings[0]
+
+
+def test_solids_with_a_common_edge_stay_together():
+    first, second = Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(10, 10, 0))
+    fragments = first.generalFuse([second])[0]
+    assert len(fragments.Solids) == 2 and len(convert(fragments).plcs) == 1
 
 
 def test_solids_that_overlap_become_plcs_of_their_own():
@@ -240,11 +272,11 @@ def test_equal_faces_with_other_triangles_become_one_interface(angle):
     below = Part.makeCylinder(5, 4, Vector(0, 0, 16))  # its top has the outline of the half sphere as well
     converted = convert(Part.makeCompound([outer, inner, sphere, below]), MeshOptions(max_size=2.0))
     if angle == 0.0:
-        assert len(converted.plcs) == 1
-        check_closed(converted.plcs[0])
+        assert [plc.solid_numbers.tolist() for plc in converted.plcs] == [[1, 2], [3, 4]]
         assert len(converted.aliases.faces) == 2
-        assert volumes(converted.plcs[0]) == pytest.approx(
-            [600 * math.pi, 200 * math.pi, 250 / 3 * math.pi, 100 * math.pi], rel=0.02
+        expected = [600 * math.pi, 200 * math.pi, 250 / 3 * math.pi, 100 * math.pi]
+        assert [volume for plc in converted.plcs for volume in volumes(plc)] == pytest.approx(
+            expected, rel=0.02
         )
     for plc in converted.plcs:
         check_closed(plc)

@@ -53,8 +53,10 @@ class CrossingSearch {
       }
   }
 
-  // Sides of s's corners of t's plane: false when they cannot cross it.
-  bool sides_of_plane(Index s, Index t, int* sides) const {
+  enum class Position { one_side, in_plane, both_sides };
+
+  // Sides of s's corners of t's plane; corners that they share lie in it.
+  Position sides_of_plane(Index s, Index t, int* sides) const {
     const Vec3 &origin = points_[triangles_[t][0]], &n = normals_[t];
     const double bound = kRounding * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     bool above = false, below = false;
@@ -68,21 +70,44 @@ class CrossingSearch {
       above |= sides[i] > 0;
       below |= sides[i] < 0;
     }
-    return above && below;
+    if (above && below) return Position::both_sides;
+    return above || below ? Position::one_side : Position::in_plane;
   }
 
   bool is_corner(Index v, Index t) const {
     return triangles_[t][0] == v || triangles_[t][1] == v || triangles_[t][2] == v;
   }
 
-  // Each must have corners on both sides of the other's plane.
+  // Each must have corners on both sides of the other's plane, or overlap it in their common plane.
   bool cross_each_other(Index s, Index t) const {
     int shared = 0;
     for (const Index v : triangles_[s]) shared += is_corner(v, t);
     if (shared >= 2) return false;
     int of_s[3], of_t[3];
-    if (!sides_of_plane(s, t, of_s) || !sides_of_plane(t, s, of_t)) return false;
+    const Position position = sides_of_plane(s, t, of_s);
+    if (position == Position::in_plane) return norm2(normals_[t]) > 0 && overlap_in_plane(s, t);
+    if (position == Position::one_side || sides_of_plane(t, s, of_t) != Position::both_sides) return false;
     return edge_passes(s, of_s, t) || edge_passes(t, of_t, s);
+  }
+
+  // In a common plane: they overlap unless the line of an edge has them on different sides.
+  bool overlap_in_plane(Index s, Index t) const {
+    return norm2(normals_[s]) > 0 && !edge_separates(s, t) && !edge_separates(t, s);
+  }
+
+  // Are all corners of t on or beyond the line of an edge of s, seen from s?
+  bool edge_separates(Index s, Index t) const {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 &a = points_[triangles_[s][i]], e = points_[triangles_[s][(i + 1) % 3]] - a;
+      const Vec3 inwards = cross(normals_[s], e);
+      int inside = 0;
+      for (const Index v : triangles_[t]) {
+        const Vec3 d = points_[v] - a;
+        inside += dot(inwards, d) > kRounding * std::sqrt(norm2(inwards) * norm2(d));
+      }
+      if (inside == 0) return true;
+    }
+    return false;
   }
 
   // Does an edge of s, with its corners on the given sides of t's plane, pass through t?

@@ -12,8 +12,8 @@
 
 namespace dm {
 
-// Pairs (i < j, sorted) of triangles whose interiors cross properly.  Triangles that share an edge or merely
-// touch do not count.
+// Pairs (i < j, sorted) of triangles whose interiors cross properly, or overlap in a common plane.  Triangles
+// that share an edge or merely touch do not count.
 std::vector<std::array<Index, 2>> find_crossings(const std::vector<Vec3>& points,
                                                  const std::vector<Triangle>& triangles);
 

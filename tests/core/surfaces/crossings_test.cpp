@@ -46,11 +46,56 @@ TEST_CASE("crossing triangles: the same pairs as by testing all") {
   CHECK(find_crossings(points, triangles) == expected);
 }
 
+TEST_CASE("triangles that overlap in a common plane cross") {
+  // Random triangles of a plane against a shared interior point found by sampling: where one triangle holds a
+  // point of the other's inside, they overlap.
+  const Vec3 u = normalized(Vec3{1, 2, 0}), v{0, 0, 1};
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < 60; ++t) {
+    Random random(3, 4, t);
+    const Vec3 centre = 4.0 * random.in_ball();
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = centre + random.in_ball();
+      points.push_back(p.x * u + p.y * v);
+    }
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const auto inside = [&](const Vec3& x, Index t) {
+    const Vec3 &a = points[3 * t], &b = points[3 * t + 1], &c = points[3 * t + 2], n = area_vector(a, b, c);
+    return dot(n, area_vector(a, b, x)) > 0 && dot(n, area_vector(b, c, x)) > 0 &&
+           dot(n, area_vector(c, a, x)) > 0;
+  };
+  const auto found = find_crossings(points, triangles);
+  Index sampled = 0;
+  for (Index s = 0; s < 60; ++s)
+    for (Index t = s + 1; t < 60; ++t) {
+      bool overlap = false;
+      Random random(5, s, t);
+      for (int k = 0; k < 3000 && !overlap; ++k) {
+        double a = random.uniform(), b = random.uniform();
+        if (a + b > 1) a = 1 - a, b = 1 - b;
+        overlap = inside(
+            points[3 * s] + a * (points[3 * s + 1] - points[3 * s]) + b * (points[3 * s + 2] - points[3 * s]),
+            t);
+      }
+      sampled += overlap;
+      const bool listed = std::binary_search(found.begin(), found.end(), std::array<Index, 2>{s, t});
+      CHECK((!overlap || listed));
+    }
+  CHECK(sampled > 20);
+  CHECK(found.size() < static_cast<std::size_t>(sampled) + sampled / 10);  // sampling misses small overlaps
+}
+
 TEST_CASE("contacts are no crossings") {
   const std::vector<Vec3> points{{0, 0, 0},     {2, 0, 0}, {0, 2, 0}, {0, 0, 1},
                                  {0.5, 0.5, 0}, {1, 1, 1}, {0, 1, 1}};
-  CHECK(find_crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());  // a common edge
-  CHECK(find_crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());  // a common corner
-  CHECK(find_crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());  // a corner in the other's inside
+  CHECK(find_crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());      // a common edge
+  CHECK(find_crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());      // a common corner
+  CHECK(find_crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());      // a corner in the other's inside
+  const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0},  {0, 1, 0},
+                                 {2, 0, 0}, {2, 1, 0}, {0.5, 0, 0}};
+  CHECK(
+      find_crossings(square, {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}).empty());  // neighbours in a plane
   CHECK(find_crossings({}, {}).empty());
 }
