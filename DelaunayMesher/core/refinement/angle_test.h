@@ -40,7 +40,7 @@ bool is_flat(const Triangulation& tets, Index tet);
 // Circumradius bound of the refinement: rho(x)^2.
 struct RadiusBound {
   const SizeField& size;
-  double factor = 0.8;
+  double factor = 0.72;
   double squared(const Vec3& p) const {
     const double r = factor * size.at(p);
     return r * r;

@@ -16,6 +16,7 @@ namespace {
 
 // Measured on prototypes and again here: docs/refinement.md has the figures behind each constant.
 constexpr int kTries = 40;
+constexpr double kSlack = 1.15;      // circumradius over the bound up to which good tetrahedra stay
 constexpr int kEncroachedTries = 3;  // consecutive refusals by the boundary before it is split
 constexpr double kFirstPick = 0.1, kPickStep = 0.03, kLargestPick = 0.6;  // f_k of a site inside
 constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
@@ -71,11 +72,16 @@ class Refinement {
     return circumsphere(tets_.point(a), tets_.point(b), tets_.point(c), tets_.point(d));
   }
 
-  bool is_bad(Index tet) const {
-    const Sphere s = sphere_of(tet);
-    if (s.radius2 > bound_.squared(s.centre)) return true;
-    return sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
+  bool is_sharp(Index tet) const { return tet_sharpness(mesh_, tet) > target_; }
+
+  // Beyond the bound; by up to kSlack only when its angles are not good, too: most tries would go into
+  // splitting good tetrahedra that are hardly too big, next to others that are finished.
+  bool is_big(Index tet, const Sphere& sphere) const {
+    const double bound2 = bound_.squared(sphere.centre);
+    return sphere.radius2 > bound2 && (sphere.radius2 > kSlack * kSlack * bound2 || is_sharp(tet));
   }
+
+  bool is_bad(Index tet) const { return is_big(tet, sphere_of(tet)) || (sliver_mode_ && is_sharp(tet)); }
 
   // Rules R2 and R3 once for all tetrahedra: points of a sphere or a cylinder leave whole layers of flat
   // tetrahedra on the wrong side, and each would refuse sites one by one.
@@ -143,8 +149,8 @@ class Refinement {
   void process(Index tet) {
     if (!is_inside(tet)) return;
     const Sphere sphere = sphere_of(tet);
-    const bool big = sphere.radius2 > bound_.squared(sphere.centre);
-    const bool sharp = sliver_mode_ && tet_sharpness(mesh_, tet) > target_;
+    const bool big = is_big(tet, sphere);
+    const bool sharp = sliver_mode_ && is_sharp(tet);
     if (!big && !sharp) return;
     if (peel(mesh_, tet, sphere.centre, sharp)) {
       ++report_.flips;
