@@ -25,6 +25,8 @@ from femtools.ccxtools import FemToolsCcx  # noqa: E402
 from DelaunayMesher import document  # noqa: E402
 from DelaunayMesher.quality import dihedral_angles  # noqa: E402
 
+# FreeCAD 1.0 has spelt it anew.
+make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
 OUTPUT = os.path.join(ROOT, "example_output")
 MAX_SIZE = float(os.environ.get("EXAMPLE_SIZE", "5.0"))  # mm
 FORCE = 8000.0  # N
@@ -45,7 +47,7 @@ def face_names(part, wanted):
 def load_case(file, part):
     """Analysis with steel, a fixed foot and a force on the bore along x; returns (analysis, solver)."""
     analysis = ObjectsFem.makeAnalysis(file, "Analysis")
-    solver = ObjectsFem.makeSolverCalculixCcxTools(file, "CalculiX")
+    solver = make_solver(file, "CalculiX")
     solver.GeometricalNonlinearity = "linear"
     material = ObjectsFem.makeMaterialSolid(file, "Steel")
     card = material.Material

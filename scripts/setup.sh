@@ -13,8 +13,9 @@ PACKAGES=(
   g++ cmake ninja-build doctest-dev
   python3-dev python3-pip python3-numpy python3-scipy python3-meshio python3-h5py python3-matplotlib
   python3-pytest python3-hypothesis
-  freecad-python3 calculix-ccx
+  freecad-python3
 )
+WANTED=(calculix-ccx) # not in Debian 13
 
 is_installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'install ok installed'; }
 
@@ -22,13 +23,16 @@ install_packages() {
   local missing=()
   for package in "${PACKAGES[@]}"; do is_installed "$package" || missing+=("$package"); done
   command -v freecadcmd >/dev/null || missing+=(freecad)
+  export DEBIAN_FRONTEND=noninteractive
+  if [ ${#missing[@]} -gt 0 ] && [ "$(id -u)" -eq 0 ]; then apt-get update -q; fi
+  for package in "${WANTED[@]}"; do
+    if ! is_installed "$package" && apt-cache show "$package" >/dev/null 2>&1; then missing+=("$package"); fi
+  done
   [ ${#missing[@]} -eq 0 ] && return
   if [ "$(id -u)" -ne 0 ]; then
     echo "setup.sh: these packages are missing, run as root: apt-get install ${missing[*]}" >&2
     exit 1
   fi
-  export DEBIAN_FRONTEND=noninteractive
-  apt-get update -q
   apt-get install -q -y --no-install-recommends "${missing[@]}"
 }
 

@@ -10,6 +10,7 @@ from .find_freecad import find_freecad
 
 find_freecad()
 
+from .calculix import solve  # noqa: E402
 from .fcstd import write_fcstd  # noqa: E402
 from .femmesh import fem_mesh  # noqa: E402
 from .mesh_object import add_mesh, mesh_shape, run  # noqa: E402
@@ -27,5 +28,6 @@ __all__ = [
     "plc_from_shape",
     "read_shape",
     "run",
+    "solve",
     "write_fcstd",
 ]

@@ -73,10 +73,32 @@ class ShowQuality:
         task_quality.open_panel(selected_fem_mesh())
 
 
+class Solve:
+    """Solve the analysis of a mesh object in its panel."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("solve"),
+            "MenuText": tr("Solve"),
+            "ToolTip": tr(
+                "Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh yet"
+            ),
+        }
+
+    def IsActive(self):
+        return mesh_to_solve() is not None
+
+    def Activated(self):
+        from . import start_mesh
+
+        start_mesh.solve(mesh_to_solve())
+
+
 COMMANDS = {
     "DelaunayMesher_MeshSolid": MeshSolid(),
     "DelaunayMesher_RefineFaces": RefineFaces(),
     "DelaunayMesher_Quality": ShowQuality(),
+    "DelaunayMesher_Solve": Solve(),
 }
 NAMES = list(COMMANDS)
 WITH_SHAPE = ("Part::Feature", "App::Part")
@@ -102,6 +124,23 @@ def is_our_mesh(item):
 def selected_mesh():
     """The only selected mesh object of ours, or None."""
     meshes = [item for item in selected_objects() if is_our_mesh(item)]
+    return meshes[0] if len(meshes) == 1 else None
+
+
+def mesh_to_solve():
+    """The selected mesh object of ours that is in an analysis, or the only one in the active analysis."""
+    mesh = selected_mesh()
+    if mesh is not None:
+        in_analysis = any(user.isDerivedFrom("Fem::FemAnalysis") for user in mesh.InList)
+        return mesh if in_analysis else None
+    if FreeCAD.ActiveDocument is None:
+        return None
+    import FemGui
+
+    analysis = FemGui.getActiveAnalysis()
+    if analysis is None or analysis.Document != FreeCAD.ActiveDocument:
+        return None
+    meshes = [item for item in analysis.Group if is_our_mesh(item)]
     return meshes[0] if len(meshes) == 1 else None
 
 

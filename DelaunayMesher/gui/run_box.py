@@ -19,6 +19,7 @@ STAGES = {
     "certificate": "Certificate",
     "write": "FEM mesh",
     "quality": "Quality figures",
+    "solve": "CalculiX",
 }
 BAD, WARN, GOOD = "#c0392b", "#b9770e", "#1e8449"
 
@@ -44,6 +45,12 @@ class RunBox(QtGui.QWidget):
         self.button = QtGui.QPushButton()
         self.button.setObjectName("MeshButton")
         self.button.setMinimumHeight(30)
+        self.solve_button = QtGui.QPushButton(QtGui.QIcon(icon("solve")), tr("Solve"))
+        self.solve_button.setObjectName("SolveButton")
+        self.solve_button.setMinimumHeight(30)
+        self.solve_button.setToolTip(
+            tr("Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh yet")
+        )
         self.bar = QtGui.QProgressBar()
         self.bar.setRange(0, 1000)
         self.status = QtGui.QLabel(tr("Ready"))
@@ -60,6 +67,9 @@ class RunBox(QtGui.QWidget):
         self.result.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
         self.result.setWordWrap(True)
         self.quality_button = QtGui.QPushButton(QtGui.QIcon(icon("mesh_quality")), tr("Mesh quality ..."))
+        self.results_button = QtGui.QPushButton(QtGui.QIcon(icon("solve")), tr("Results ..."))
+        self.results_button.setToolTip(tr("Close this panel and open FreeCAD's own for the results"))
+        self.results_button.hide()
         self.arrange()
         self.idle()
 
@@ -67,17 +77,25 @@ class RunBox(QtGui.QWidget):
         outer = QtGui.QVBoxLayout(self)
         outer.setContentsMargins(2, 2, 2, 2)
         outer.setSpacing(5)
-        outer.addWidget(self.button)
+        line = QtGui.QHBoxLayout()
+        line.addWidget(self.button, 1)
+        line.addWidget(self.solve_button, 1)
+        outer.addLayout(line)
         outer.addWidget(self.bar)
         line = QtGui.QHBoxLayout()
         line.addWidget(self.status, 1)
         line.addWidget(self.time)
         outer.addLayout(line)
         outer.addWidget(self.result)
-        outer.addWidget(self.quality_button)
+        line = QtGui.QHBoxLayout()
+        line.addWidget(self.quality_button, 1)
+        line.addWidget(self.results_button, 1)
+        outer.addLayout(line)
         outer.addWidget(self.log)
 
     def idle(self):
+        self.bar.setRange(0, 1000)
+        self.solve_button.setEnabled(True)
         self.button.setEnabled(True)
         self.button.setText(tr("Mesh"))
         self.button.setIcon(QtGui.QIcon(icon("mesh_solid")))
@@ -86,6 +104,7 @@ class RunBox(QtGui.QWidget):
         """A run starts."""
         self.stage = None
         self.log.clear()
+        self.solve_button.setEnabled(False)
         self.bar.setValue(0)
         self.time.setText("")
         self.button.setText(tr("Cancel"))
@@ -93,7 +112,10 @@ class RunBox(QtGui.QWidget):
 
     def show_progress(self, job):
         """Stage, percentage and time of a run."""
-        self.bar.setValue(int(1000 * job.fraction))
+        if job.fraction is None:
+            self.bar.setRange(0, 0)  # busy, nobody knows how long
+        else:
+            self.bar.setValue(int(1000 * job.fraction))
         self.time.setText(tr("%.1f s") % job.seconds)
         if job.cancelled:
             self.button.setEnabled(False)
@@ -103,15 +125,16 @@ class RunBox(QtGui.QWidget):
             self.status.setText(stage_name(job.stage))
             self.write("%6.2f s  %s" % (job.seconds, stage_name(job.stage)))
 
-    def fail(self, error, seconds=None):
-        """The run ended without a mesh."""
+    def fail(self, error):
+        """The run ended without a mesh, or without stresses."""
         self.idle()
         self.bar.setValue(0)
+        solving = error.stage == "solve"
         if isinstance(error, MeshCancelled):
-            self.status.setText(tr("Cancelled; the old mesh was kept"))
+            self.status.setText(tr("Cancelled") if solving else tr("Cancelled; the old mesh was kept"))
             self.write(tr("Cancelled"), WARN)
             return
-        self.status.setText(tr("Failed; the old mesh was kept"))
+        self.status.setText(tr("Not solved") if solving else tr("Failed; the old mesh was kept"))
         self.write(str(error), BAD)
 
     def succeed(self, job, report):
@@ -127,6 +150,16 @@ class RunBox(QtGui.QWidget):
         for warning in report.get("warnings", ()):
             self.write(warning, WARN)
         self.show_report(report)
+
+    def show_solution(self, job, moved, stress):
+        """CalculiX is done; lengths in mm, stress in MPa."""
+        self.idle()
+        self.bar.setValue(self.bar.maximum())
+        self.status.setText(tr("Solved"))
+        self.time.setText(tr("%.1f s") % job.seconds)
+        self.write(tr("Largest displacement %.4g mm") % moved, GOOD)
+        self.write(tr("Largest von Mises stress %.4g MPa (red)") % stress, GOOD)
+        self.results_button.show()
 
     def show_report(self, report):
         """Result of this run or of an earlier one."""

@@ -48,6 +48,16 @@ def edit(mesh):
     FreeCADGui.getDocument(mesh.Document.Name).setEdit(mesh.Name)
 
 
+def solve(mesh):
+    """Open the panel of a mesh object, unless another panel is open, and solve its analysis there."""
+    from . import task_mesh_object
+
+    edit(mesh)
+    panel = task_mesh_object.MeshPanel.current
+    if panel is not None and panel.target == mesh and FreeCADGui.Control.activeDialog():
+        panel.mesh_and_solve()
+
+
 def panel_is_open():
     """Whether another task panel is open; the user is told."""
     if not FreeCADGui.Control.activeDialog():

@@ -1,4 +1,4 @@
-"""The panel of a mesh object: its options above, running the mesher below.
+"""The panel of a mesh object: its options above, running the mesher and CalculiX below.
 
 Changes go into the document when the mesher starts or the panel closes.  Closing while the mesher runs stops
 it first.  The old mesh stays until a new one is complete.
@@ -9,6 +9,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..document import estimate, mesh_object
+from ..document.calculix import extremes
 from ..document.placement import own_shape
 from ..document.properties import get_option, set_option
 from ..errors import MeshError
@@ -18,6 +19,7 @@ from .mesh_job import MeshJob
 from .option_fields import make_field
 from .run_box import RunBox, number
 from .size_preview import SizePreview
+from .solve_job import SolveJob
 from .texts import icon, tr
 
 POLL_MILLISECONDS = 50
@@ -32,13 +34,17 @@ class MeshPanel:
     def __init__(self, target):
         MeshPanel.current = self
         self.target = target
-        self.job = None
+        self.job = self.result = None
+        self.then_solve = False
         self.options_box = OptionsBox(target)
         self.run_box = RunBox()
         self.preview = SizePreview(target, self.options_box)
         self.form = [self.options_box, self.run_box]
         self.run_box.button.clicked.connect(self.start_or_cancel)
+        self.run_box.solve_button.clicked.connect(self.mesh_and_solve)
+        self.run_box.solve_button.setVisible(mesh_object.analysis_of(target) is not None)
         self.run_box.quality_button.clicked.connect(self.show_quality)
+        self.run_box.results_button.clicked.connect(self.show_results)
         self.run_box.show_report(mesh_object.stored_report(target))
         self.timer = QtCore.QTimer(self.run_box)  # ends with the panel, however that is closed
         self.timer.setInterval(POLL_MILLISECONDS)
@@ -62,11 +68,20 @@ class MeshPanel:
 
     def start(self):
         """Write the options down and run the mesher on them."""
+        self.run(MeshJob)
+
+    def mesh_and_solve(self):
+        """Solve the analysis; an empty mesh is filled first."""
+        self.then_solve = not self.target.FemMesh.VolumeCount
+        self.run(MeshJob if self.then_solve else SolveJob)
+
+    def run(self, kind):
+        """Start a job of this kind on the mesh object."""
         self.preview.end()
         self.options_box.store(self.target)
         self.run_box.begin()
         try:
-            self.job = MeshJob(self.target)
+            self.job = kind(self.target)
         except MeshError as error:
             self.run_box.fail(error)
             return
@@ -91,11 +106,25 @@ class MeshPanel:
         if target is None:
             return
         self.options_box.setEnabled(True)
-        if job.error:
-            self.run_box.fail(job.error, job.seconds)
+        then_solve, self.then_solve = self.then_solve, False
+        try:
+            if job.error:
+                raise job.error
+            self.take(job, target)
+        except MeshError as error:
+            self.run_box.fail(error)
             return
-        job.store(target)
-        self.run_box.succeed(job, mesh_object.stored_report(target))
+        if then_solve:
+            self.run(SolveJob)
+
+    def take(self, job, target):
+        """Put what a job made into the document and tell about it."""
+        if isinstance(job, SolveJob):
+            self.result = job.store(target)
+            self.run_box.show_solution(job, *extremes(self.result))
+        else:
+            job.store(target)
+            self.run_box.succeed(job, mesh_object.stored_report(target))
 
     def follow(self):
         """The mesh object's report has changed, by undo for instance."""
@@ -112,6 +141,15 @@ class MeshPanel:
         target = self.target
         if self.reject():
             task_quality.open_panel(target)
+
+    def show_results(self):
+        """Close this panel and open FreeCAD's own for the result."""
+        QtCore.QTimer.singleShot(0, self.change_to_results)
+
+    def change_to_results(self):
+        result = self.result
+        if self.reject():
+            FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name)
 
     def reject(self):
         """Close button and Esc: stop the run first, close the second time."""

@@ -12,6 +12,8 @@ import FreeCADGui
 import ObjectsFem
 from drive import say, wait, wait_until
 
+from DelaunayMesher.document.calculix import extremes
+
 LENGTH, SIDE, FORCE, YOUNG = 100.0, 10.0, 100.0, 210000.0  # mm, mm, N, MPa
 
 
@@ -23,8 +25,6 @@ def make_analysis():
     document.recompute()
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
     FemGui.setActiveAnalysis(analysis)
-    solver = ObjectsFem.makeSolverCalculixCcxTools(document, "CalculiX")
-    solver.GeometricalNonlinearity = "linear"
     steel = ObjectsFem.makeMaterialSolid(document, "Steel")
     card = steel.Material
     card.update(Name="Steel", YoungsModulus="%g MPa" % YOUNG, PoissonRatio="0.30")
@@ -35,56 +35,91 @@ def make_analysis():
     force.References = [(beam, "Face2")]
     force.Force = FORCE if drive.version() < (1, 0) else "%g N" % FORCE
     force.Direction = (beam, ["Edge5"])
-    for item in (solver, steel, fixed, force):
+    for item in (steel, fixed, force):
         analysis.addObject(item)
     document.recompute()
     drive.view_all()
-    return beam, analysis, solver
+    return beam, analysis
 
 
-def mesh(beam):
-    """From the panel, second order."""
+def mesh_and_solve(beam, analysis):
+    """From the panel, second order; the solver is made by the way.  Returns the result object."""
     drive.select(beam)
     FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
     wait(0.3)
     panel = drive.panel()
     panel.options_box.fields["order"].set(2)
-    panel.run_box.button.click()
+    panel.run_box.solve_button.click()
     wait_until(lambda: not panel.running)
     say(panel.target.Summary)
-    panel.reject()
-    wait(0.3)
+    text = panel.run_box.log.toPlainText()
+    say(text)
+    assert "von Mises" in text, text
+    drive.view_all()
+    drive.picture("solved")
+    assert analysis.Document.UndoNames[0] == "Results of CalculiX"
+    return panel
 
 
-def solve(analysis, solver):
-    """With FreeCAD's ccxtools; returns the result object."""
-    from femtools.ccxtools import FemToolsCcx
+def something_is_missing(panel, analysis):
+    """Without a material the panel says so, and CalculiX does not run."""
+    steel = next(item for item in analysis.Group if item.Name == "Steel")
+    analysis.removeObject(steel)
+    panel.run_box.solve_button.click()
+    assert not panel.running
+    text = panel.run_box.log.toPlainText()
+    say("refused:", text)
+    assert "material" in text and panel.run_box.button.isEnabled()
+    analysis.addObject(steel)
 
-    tool = FemToolsCcx(analysis, solver)
-    tool.update_objects()
-    tool.setup_working_dir(drive.OUTPUT, create=True)
-    tool.setup_ccx()
-    problem = tool.check_prerequisites()
-    assert not problem, problem
-    tool.purge_results()
-    tool.write_inp_file()
-    tool.ccx_run()
-    tool.load_results()
-    return next(item for item in analysis.Group if item.isDerivedFrom("Fem::FemResultObject"))
+
+def cancel(panel):
+    """CalculiX is stopped, the results of before stay."""
+    panel.run_box.solve_button.click()
+    assert panel.running
+    panel.run_box.button.click()
+    wait_until(lambda: not panel.running)
+    say(panel.run_box.status.text())
+    assert panel.run_box.status.text() == "Cancelled"
+
+
+def results_panel(panel):
+    """FreeCAD's own panel opens for the result."""
+    panel.run_box.results_button.click()
+    wait(0.5)
+    assert FreeCADGui.ActiveDocument.getInEdit().Object == panel.result
+    drive.picture("results")
+    FreeCADGui.ActiveDocument.resetEdit()
+    wait(0.2)
+
+
+def command(target):
+    """The toolbar's command opens the panel and solves at once."""
+    FreeCADGui.Selection.clearSelection()
+    assert FreeCADGui.Command.get("DelaunayMesher_Solve").isActive()
+    FreeCADGui.runCommand("DelaunayMesher_Solve")
+    panel = drive.panel()
+    assert panel.target == target and panel.running
+    wait_until(lambda: not panel.running)
+    assert panel.run_box.status.text() == "Solved"
+    assert panel.reject()
 
 
 def main():
-    FreeCADGui.activateWorkbench("FemWorkbench")
+    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
     wait(0.3)
-    beam, analysis, solver = make_analysis()
-    mesh(beam)
-    result = solve(analysis, solver)
-    found = max(result.DisplacementLengths)
+    beam, analysis = make_analysis()
+    panel = mesh_and_solve(beam, analysis)
+    found, stress = extremes(panel.result)
     expected = FORCE * LENGTH**3 / (3 * YOUNG * SIDE**4 / 12)
     shear = 1.2 * FORCE * LENGTH / (YOUNG / 2.6 * SIDE**2)
-    say("displacement %.5f mm, beam theory %.5f mm" % (found, expected + shear))
+    say("displacement %.5f mm, beam theory %.5f mm, stress %.2f MPa" % (found, expected + shear, stress))
     assert abs(found - expected - shear) < 0.02 * expected
-    drive.picture("solved")
+    assert 0.9 < stress / (6 * FORCE * LENGTH / SIDE**3) < 2.0  # singular at the fixed edges
+    something_is_missing(panel, analysis)
+    cancel(panel)
+    results_panel(panel)
+    command(panel.target)
 
 
 drive.start(main, "SOLVE")

@@ -1,0 +1,105 @@
+"""One run of CalculiX beside the window, with what the mesh panel asks of a job (see mesh_job.py).
+
+Writing the input and reading the results is FreeCAD's work in the thread of the window; CalculiX is a
+process.
+"""
+
+import time
+import traceback
+from contextlib import contextmanager
+
+import FreeCAD
+from PySide import QtCore, QtGui
+
+from ..document.calculix import Calculation
+from ..errors import MeshCancelled, MeshError
+from .texts import tr
+
+
+class SolveJob:
+    """Prepared by the constructor (raises MeshError), then start(), and store() once `finished` and good."""
+
+    stage, fraction = "solve", None
+
+    def __init__(self, target):
+        self.where = (target.Document.Name, target.Name)
+        self.cancelled = False
+        self.begin, self.end = time.monotonic(), None
+        with patience():
+            self.calculation = Calculation(target)
+
+    def start(self):
+        self.process = self.calculation.start()
+
+    def cancel(self):
+        self.cancelled = True
+        self.process.kill()
+
+    @property
+    def finished(self):
+        if self.end is None and self.process.state() == QtCore.QProcess.NotRunning:
+            self.end = time.monotonic()
+        return self.end is not None
+
+    @property
+    def seconds(self):
+        """Time since the start; of a finished run, its length."""
+        return (self.end or time.monotonic()) - self.begin
+
+    @property
+    def error(self):
+        """MeshCancelled after cancel(); what CalculiX itself says is found out by store()."""
+        return MeshCancelled(self.stage) if self.cancelled else None
+
+    def target(self):
+        """The mesh object, or None when it or its document has gone meanwhile."""
+        document = FreeCAD.listDocuments().get(self.where[0])
+        return document.getObject(self.where[1]) if document else None
+
+    def store(self, target):
+        """Read the results into the analysis, as one step that can be undone, and show the stresses.
+
+        Returns the result object; raises MeshError when there is none.
+        """
+        with patience():
+            target.Document.openTransaction(tr("Results of CalculiX"))
+            try:
+                result = self.calculation.load()
+            except MeshError:
+                target.Document.abortTransaction()
+                raise
+            show_stress(result)
+            for item in (target, target.Shape):
+                item.ViewObject.hide()
+            target.Document.commitTransaction()
+        return result
+
+
+@contextmanager
+def patience():
+    """The cursor tells to wait; errors of FreeCAD's tools become a MeshError."""
+    QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+    try:
+        yield
+    except MeshError:
+        raise
+    except Exception as error:
+        FreeCAD.Console.PrintLog(traceback.format_exc())
+        raise MeshError("solve", "internal", "%s: %s" % (type(error).__name__, error)) from error
+    finally:
+        QtGui.QApplication.restoreOverrideCursor()
+
+
+def show_stress(result):
+    """Colour the result by its von Mises stress."""
+    if hasattr(result, "vonMises"):
+        from femresult.resulttools import show_result
+
+        result.Mesh.ViewObject.show()
+        show_result(result, "Sabs")
+        return
+    view = result.ViewObject
+    view.show()
+    view.DisplayMode = "Surface"
+    if "von Mises Stress" in view.getEnumerationsOfProperty("Field"):
+        view.Field = "von Mises Stress"
