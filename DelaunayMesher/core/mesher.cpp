@@ -93,7 +93,7 @@ MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOption
   mark_acute_segments(labelled, kAcuteAngle);
   refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
   result.statistics.emplace_back("flat_tetrahedra_left_out", carve_flat_tets(labelled));
-  result.mesh = extract_volume_mesh(labelled);
+  result.mesh = extract_volume_mesh(std::move(labelled));
   record(result, recovery, refinement);
   warn(result, recovery, refinement);
   clock.stop("refinement");

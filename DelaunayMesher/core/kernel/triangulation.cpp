@@ -14,6 +14,12 @@ void Triangulation::set_marked(Index tet, int i, bool on) {
   flags_[tet] = static_cast<std::uint8_t>(on ? flags_[tet] | bit : flags_[tet] & ~bit);
 }
 
+Triangulation::Arrays Triangulation::release() && {
+  flags_ = {};
+  vertex_tet_ = {};
+  return {std::move(points_), std::move(corners_), std::move(neighbours_), std::move(tags_), slots_.next};
+}
+
 std::size_t Triangulation::bytes() const {
   const auto held = [](const auto& array) { return array.size() * sizeof(array[0]); };
   return held(points_) + held(corners_) + held(neighbours_) + held(tags_) + held(flags_) + held(vertex_tet_) +

@@ -75,7 +75,7 @@ struct Slots {
 
 class Triangulation {
  public:
-  static constexpr Index ghost = -1;
+  static constexpr Index ghost = -1, free_slot = -2;  // in place of a corner
 
   // Triangulates `points` (Hilbert/BRIO order inside; vertex numbers stay those of `points`).
   // Exact duplicates get no tetrahedron: vertex_tet() of the later one is -1.
@@ -98,6 +98,16 @@ class Triangulation {
   Face neighbour(Index tet, int i) const { return neighbours_[tet][i]; }
   // Some tetrahedron (perhaps a ghost) at the vertex.
   Index vertex_tet(Index vertex) const { return vertex_tet_[vertex]; }
+
+  // The arrays, handed over; the triangulation is used up.
+  struct Arrays {
+    std::vector<Vec3> points;
+    Array<Tet> corners;
+    Array<std::array<Face, 4>> neighbours;
+    Array<std::uint16_t> tags;
+    Index slot_count;  // the arrays may be longer
+  };
+  Arrays release() &&;
 
   // Memory held by all arrays.
   std::size_t bytes() const;
@@ -130,7 +140,6 @@ class Triangulation {
  private:
   friend class TriangulationBuilder;
   friend class PartInsertion;
-  static constexpr Index free_slot = -2;
   static constexpr Index kLeft = -2;  // walk, search: a tetrahedron outside the region was met
   // flags_: bits 0-3 the marks, bits 4 and 5 the stamps of find_cavity, which leaves none behind.
   static constexpr std::uint8_t kMarks = 15, kInside = 16, kSeen = 32;

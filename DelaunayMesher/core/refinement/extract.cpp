@@ -1,31 +1,38 @@
 #include "refinement/extract.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dm {
 
 namespace {
 
-void extract_tets(const Triangulation& tets, const std::vector<Index>& vertex_of, VolumeMesh& out) {
-  std::vector<Index> tet_of(tets.slot_count(), -1);
+bool is_meshed(const Triangulation::Arrays& arrays, Index t) {
+  return arrays.corners[t][0] != Triangulation::free_slot && arrays.tags[t] != 0;
+}
+
+void extract_tets(Triangulation::Arrays& arrays, const std::vector<Index>& vertex_of, VolumeMesh& out) {
+  std::vector<Index> tet_of(arrays.slot_count, -1);
   Index count = 0;
-  for (Index t = 0; t < tets.slot_count(); ++t)
-    if (!tets.is_free(t) && tets.tag(t) != 0) tet_of[t] = count++;
-  out.tets.reserve(count);
-  out.neighbours.reserve(count);
+  for (Index t = 0; t < arrays.slot_count; ++t)
+    if (is_meshed(arrays, t)) tet_of[t] = count++;
   out.tet_solid.reserve(count);
-  for (Index t = 0; t < tets.slot_count(); ++t) {
+  out.tets.reserve(count);
+  for (Index t = 0; t < arrays.slot_count; ++t) {
     if (tet_of[t] < 0) continue;
-    Tet corners;
-    std::array<Index, 4> across;
-    for (int i = 0; i < 4; ++i) {
-      corners[i] = vertex_of[tets.corners(t)[i]];
-      const Face g = tets.neighbour(t, i);
-      across[i] = tet_of[g / 4] < 0 ? -1 : 4 * tet_of[g / 4] + g % 4;
-    }
+    out.tet_solid.push_back(arrays.tags[t]);
+    Tet corners = arrays.corners[t];
+    for (Index& v : corners) v = vertex_of[v];
     out.tets.push_back(corners);
+  }
+  arrays.tags = {};
+  arrays.corners = {};
+  out.neighbours.reserve(count);
+  for (Index t = 0; t < arrays.slot_count; ++t) {
+    if (tet_of[t] < 0) continue;
+    std::array<Index, 4> across = arrays.neighbours[t];
+    for (Index& g : across) g = tet_of[g / 4] < 0 ? -1 : 4 * tet_of[g / 4] + g % 4;
     out.neighbours.push_back(across);
-    out.tet_solid.push_back(tets.tag(t));
   }
 }
 
@@ -50,24 +57,29 @@ void extract_boundary(const BoundaryComplex& complex, const std::vector<Index>& 
 
 }  // namespace
 
-VolumeMesh extract_volume_mesh(const LabelledTriangulation& mesh) {
-  const Triangulation& tets = mesh.tets;
-  std::vector<Index> solid_of(tets.vertex_count(), 0);
-  for (Index t = 0; t < tets.slot_count(); ++t)
-    if (!tets.is_free(t) && tets.tag(t) != 0)
-      for (const Index v : tets.corners(t)) solid_of[v] = tets.tag(t);
+VolumeMesh extract_volume_mesh(LabelledTriangulation mesh) {
+  Triangulation::Arrays arrays = std::move(mesh.tets).release();
+  const auto vertex_count = static_cast<Index>(arrays.points.size());
+  std::vector<Index> solid_of(vertex_count, 0);
+  for (Index t = 0; t < arrays.slot_count; ++t)
+    if (is_meshed(arrays, t))
+      for (const Index v : arrays.corners[t]) solid_of[v] = arrays.tags[t];
   VolumeMesh out;
-  std::vector<Index> vertex_of(tets.vertex_count(), -1);
-  for (Index v = 0; v < tets.vertex_count(); ++v) {
+  std::vector<Index> vertex_of(vertex_count, -1);
+  Index count = 0;
+  for (Index v = 0; v < vertex_count; ++v) {
     if (!solid_of[v]) continue;
-    vertex_of[v] = static_cast<Index>(out.points.size());
-    out.points.push_back(tets.point(v));
     Entity entity = mesh.boundary.entity(v);
     if (entity.dimension == 3) entity.index = solid_of[v];
     out.point_entity.push_back(entity);
+    arrays.points[count] = arrays.points[v];
+    vertex_of[v] = count++;
   }
-  extract_tets(tets, vertex_of, out);
-  extract_boundary(mesh.boundary, vertex_of, out);
+  arrays.points.resize(count);
+  arrays.points.shrink_to_fit();
+  out.points = std::move(arrays.points);
+  extract_boundary(BoundaryComplex(std::move(mesh.boundary)), vertex_of, out);
+  extract_tets(arrays, vertex_of, out);
   return out;
 }
 

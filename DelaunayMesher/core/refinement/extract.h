@@ -6,6 +6,7 @@
 
 namespace dm {
 
-VolumeMesh extract_volume_mesh(const LabelledTriangulation& mesh);
+// Uses the triangulation up, array by array, so that it never stands beside the whole mesh.
+VolumeMesh extract_volume_mesh(LabelledTriangulation mesh);
 
 }  // namespace dm
