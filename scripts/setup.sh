@@ -19,6 +19,8 @@ WANTED=(calculix-ccx) # not in Debian 13
 
 is_installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'install ok installed'; }
 
+is_available() { LC_ALL=C apt-cache policy "$1" | grep -q 'Candidate: [^(]'; }
+
 install_packages() {
   local missing=()
   for package in "${PACKAGES[@]}"; do is_installed "$package" || missing+=("$package"); done
@@ -26,7 +28,7 @@ install_packages() {
   export DEBIAN_FRONTEND=noninteractive
   if [ ${#missing[@]} -gt 0 ] && [ "$(id -u)" -eq 0 ]; then apt-get update -q; fi
   for package in "${WANTED[@]}"; do
-    if ! is_installed "$package" && apt-cache show "$package" >/dev/null 2>&1; then missing+=("$package"); fi
+    if ! is_installed "$package" && is_available "$package"; then missing+=("$package"); fi
   done
   [ ${#missing[@]} -eq 0 ] && return
   if [ "$(id -u)" -ne 0 ]; then

@@ -15,12 +15,14 @@ from . import references
 from .femmesh import fem_mesh
 from .placement import own_shape, shape_to_mesh
 from .properties import add_option_properties, get_options, set_options
+from .size_region import add_size_region, regions_of
 
 TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")  # from FreeCAD 1.0; before
 LINK_LISTS = {
     "MeshRegionList": "Mesh refinements (FreeCAD up to 1.1)",
     "MeshRefinementList": "Mesh refinements",
     "MeshGroupList": "Mesh groups",
+    "SizeRegionList": "Sizes inside spheres, boxes and cylinders",
     "MeshBoundaryLayerList": "Not used; FreeCAD's tree asks for it",
 }
 LARGEST_LIST = 200  # entries of a list kept in the stored report
@@ -87,10 +89,8 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
     if own_shape(part) is None:
         raise InputError("options", "no_shape", "%s has no shape to mesh" % getattr(part, "Label", part))
     chosen = make_options(None, **options)
-    if chosen.regions or chosen.size_points is not None:
-        raise InputError(
-            "options", "not_stored", "regions and size_points are not kept in documents; give them to run()"
-        )
+    if chosen.size_points is not None:
+        raise InputError("options", "not_stored", "size_points are not kept in documents; give them to run()")
     document = part.Document
     known = document.supportedTypes()
     target = document.addObject(next(kind for kind in TYPES if kind in known), name)
@@ -100,6 +100,8 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
     set_options(target, chosen)
     target.Sizes = size_rows(chosen.sizes)
     attach_view(target)
+    for region in chosen.regions:
+        add_size_region(target, region)
     analysis = analysis or active_analysis(document)
     if analysis:
         analysis.addObject(target)
@@ -161,7 +163,8 @@ def collect(target, **extra):
     refined, warnings = references.refinement_sizes(target, part, shape)
     for name, size in refined.items():
         sizes[name] = min(size, sizes.get(name, size))
-    options = get_options(target, sizes=sizes, **extra)
+    regions = [*regions_of(target), *extra.pop("regions", ())]
+    options = get_options(target, sizes=sizes, regions=regions, **extra)
     groups = references.named_groups(target, part, shape)
     keep = references.constraint_names(analysis_of(target), part)
     keep += [name for _, names in groups for name in names]

@@ -53,6 +53,28 @@ class RefineFaces:
         refine_faces.refine(FreeCADGui.Selection.getSelectionEx())
 
 
+class RefineHere:
+    """Make a size region round a selected vertex or place."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("size_region"),
+            "MenuText": tr("Refine here"),
+            "ToolTip": tr(
+                "Smaller elements inside a sphere, box or cylinder round the selected vertex, or where the "
+                "part was clicked"
+            ),
+        }
+
+    def IsActive(self):
+        return any(selection.HasSubObjects for selection in FreeCADGui.Selection.getSelectionEx())
+
+    def Activated(self):
+        from . import refine_faces
+
+        refine_faces.refine_here(FreeCADGui.Selection.getSelectionEx())
+
+
 class ShowQuality:
     """Open the quality panel of the selected mesh object."""
 
@@ -97,12 +119,13 @@ class Solve:
 COMMANDS = {
     "DelaunayMesher_MeshSolid": MeshSolid(),
     "DelaunayMesher_RefineFaces": RefineFaces(),
+    "DelaunayMesher_RefineHere": RefineHere(),
     "DelaunayMesher_Quality": ShowQuality(),
     "DelaunayMesher_Solve": Solve(),
 }
 NAMES = list(COMMANDS)
 WITH_SHAPE = ("Part::Feature", "App::Part")
-IN_FEM = ["DelaunayMesher_MeshSolid", "DelaunayMesher_RefineFaces", "DelaunayMesher_Quality"]
+IN_FEM = [name for name in NAMES if name != "DelaunayMesher_Solve"]  # FEM has its own
 
 
 def register():

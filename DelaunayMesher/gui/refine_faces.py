@@ -1,4 +1,6 @@
-"""FreeCAD's own mesh refinement on our mesh object, for selected faces, edges and vertices."""
+"""Refinements of our mesh object from a selection: FreeCAD's own for faces, edges and vertices, and a size
+region round a selected place.
+"""
 
 import FreeCADGui
 
@@ -6,6 +8,7 @@ from .commands import body_of, is_our_mesh
 from .start_mesh import panel_is_open, show_error
 from .texts import tr
 
+SIZES_TO_RADIUS = 3.0  # radius of a new size region in its sizes
 SHARE_OF_SIZE = 3.0  # a refinement starts with the mesh's size divided by this
 
 
@@ -13,18 +16,62 @@ def refine(selection):
     """Make a refinement of the selected elements (of one part with a mesh object); its panel opens."""
     if panel_is_open():
         return
+    chosen, mesh = selected_elements(selection)
+    if mesh is None:
+        return
+    # The last feature of a body has the body's elements under the same names.
+    part, meshed = chosen.Object, mesh.Shape
+    create(mesh, meshed if getattr(meshed, "Tip", None) == part else part, chosen.SubElementNames)
+
+
+def refine_here(selection):
+    """Make a size region round a selected vertex, or where something was clicked; its panel opens."""
+    if panel_is_open():
+        return
+    chosen, mesh = selected_elements(selection)
+    if mesh is None:
+        return
+    from ..document.size_region import add_size_region
+    from ..sizing import Region
+
+    size = starting_size(mesh, mesh.Shape)
+    document = mesh.Document
+    document.openTransaction(tr("Size region"))
+    region = add_size_region(mesh, Region.ball(place_of(chosen, mesh.Shape), SIZES_TO_RADIUS * size, size))
+    document.commitTransaction()
+    document.recompute()
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.getDocument(document.Name).setEdit(region.Name)
+
+
+def place_of(chosen, part):
+    """The selected place in the coordinates of the mesh."""
+    from ..document.placement import GLOBAL_SINCE, outer_placement, shape_to_mesh, version
+
+    name = chosen.SubElementNames[0]
+    if name.startswith("Vertex"):
+        return shape_to_mesh(part).getElement(name).Point
+    place = chosen.PickedPoints[0]
+    outer = outer_placement(part)
+    if outer is not None and version() < GLOBAL_SINCE:
+        place = outer.inverse().multVec(place)
+    return place
+
+
+def selected_elements(selection):
+    """(the selection of faces, edges or vertices of one part, its mesh object); the user is told when there
+    is none, and the mesh object is None then.
+    """
     chosen = [item for item in selection if item.HasSubObjects and not is_our_mesh(item.Object)]
     if len(chosen) != 1:
         show_error(tr("Select faces, edges or vertices of one part."))
-        return
+        return None, None
     part = chosen[0].Object
     meshes = meshes_of(part) or meshes_of(body_of(part))
     if not meshes:
         show_error(tr("This part has no mesh object yet. Use 'Mesh this solid' first."))
-        return
-    # The last feature of a body has the body's elements under the same names.
-    meshed = meshes[0].Shape
-    create(meshes[0], meshed if getattr(meshed, "Tip", None) == part else part, chosen[0].SubElementNames)
+        return None, None
+    return chosen[0], meshes[0]
 
 
 def meshes_of(part):

@@ -15,6 +15,8 @@ from ..document.calculix import Calculation
 from ..errors import MeshCancelled, MeshError
 from .texts import tr
 
+STRESS_FIELDS = ("von Mises Stress", "von Mises stress")
+
 
 class SolveJob:
     """Prepared by the constructor (raises MeshError), then start(), and store() once `finished` and good."""
@@ -68,7 +70,7 @@ class SolveJob:
             except MeshError:
                 target.Document.abortTransaction()
                 raise
-            show_stress(result)
+            show_stress(result, self.calculation.analysis)
             for item in (target, target.Shape):
                 item.ViewObject.hide()
             target.Document.commitTransaction()
@@ -90,16 +92,19 @@ def patience():
         QtGui.QApplication.restoreOverrideCursor()
 
 
-def show_stress(result):
-    """Colour the result by its von Mises stress."""
-    if hasattr(result, "vonMises"):
+def show_stress(result, analysis):
+    """Colour the result by its von Mises stress: the pipeline of FreeCAD 1.0 and later, or its mesh."""
+    pipelines = [item for item in analysis.Group if item.isDerivedFrom("Fem::FemPostPipeline")]
+    if not pipelines:
         from femresult.resulttools import show_result
 
         result.Mesh.ViewObject.show()
         show_result(result, "Sabs")
         return
-    view = result.ViewObject
+    if hasattr(result, "Mesh") and result.Mesh:
+        result.Mesh.ViewObject.hide()
+    view = pipelines[-1].ViewObject
     view.show()
     view.DisplayMode = "Surface"
-    if "von Mises Stress" in view.getEnumerationsOfProperty("Field"):
-        view.Field = "von Mises Stress"
+    fields = view.getEnumerationsOfProperty("Field")
+    view.Field = next((name for name in STRESS_FIELDS if name in fields), view.Field)

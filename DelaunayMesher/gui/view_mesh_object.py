@@ -11,6 +11,7 @@ CHILD_LISTS = {
     "Fem::MeshRegion": ("MeshRegionList", "MeshRefinementList"),
     "Fem::MeshGroup": ("MeshGroupList",),
     "Fem::MeshBoundaryLayer": ("MeshBoundaryLayerList",),
+    "Fem::MeshSizeRegion": ("SizeRegionList",),
 }
 OTHER_REFINEMENTS = ("MeshRefinementList", "MeshRegionList")  # of later FreeCAD: distance, shape, ...
 

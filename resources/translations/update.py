@@ -17,7 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 PACKAGE = os.path.join(ROOT, "DelaunayMesher")
 CONTEXT = "DelaunayMesher"
-TABLES = {"STAGES", "REASONS", "CHOICE_LABELS", "CUTS", "MEASURES"}
+TABLES = {"STAGES", "REASONS", "CHOICE_LABELS", "CUTS", "MEASURES", "LABELS", "KIND_LABELS"}
 
 
 def texts_of(path):
@@ -68,7 +68,17 @@ def all_texts():
     for name in sorted(os.listdir(folder)):
         if name.endswith(".py"):
             found += texts_of(os.path.join(folder, name))
-    return list(dict.fromkeys([*found, *option_texts()]))
+    return list(dict.fromkeys([*found, *option_texts(), *property_texts()]))
+
+
+def property_texts():
+    """Helps of the properties of a size region: the third string of each row."""
+    with open(os.path.join(PACKAGE, "document", "size_region.py"), encoding="utf-8") as file:
+        tree = ast.parse(file.read())
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "PROPERTIES":
+            for row in node.value.elts:
+                yield row.elts[2].value
 
 
 def read_translations(path):

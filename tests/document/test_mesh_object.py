@@ -13,6 +13,7 @@ from DelaunayMesher import document
 from DelaunayMesher.errors import InputError, MeshCancelled, MeshError
 from DelaunayMesher.options import OPTIONS
 from DelaunayMesher.quality import edge_lengths
+from DelaunayMesher.sizing import Region
 
 
 @pytest.fixture
@@ -243,3 +244,39 @@ def test_write_fcstd(box, tmp_path):
         FreeCAD.closeDocument(again.Name)
     with pytest.raises(InputError, match="No such"):
         document.write_fcstd(str(tmp_path / "none" / "out.FCStd"), mesh, shape)
+
+
+def inner_edge(mesh, centre, radius):
+    """Mean edge length of the tetrahedra with a corner in a ball."""
+    inside = np.linalg.norm(mesh.points - centre, axis=1) < radius
+    return edge_lengths(mesh.points, mesh.tets[inside[mesh.tets[:, :4]].any(axis=1)]).mean()
+
+
+def test_size_regions_make_it_finer(file, box, tmp_path):
+    target = document.add_mesh(box, max_size=4.0, regions=[Region.ball((4, 5, 5), 2.0, 0.7)])
+    region = target.SizeRegionList[0]
+    assert (region.Kind, region.Radius.Value, region.Size.Value) == ("Sphere", 2.0, 0.7)
+    mesh = document.run(target)
+    assert inner_edge(mesh, (4, 5, 5), 1.5) < 1.0 and inner_edge(mesh, (18, 5, 5), 2.0) > 2.0
+    path = str(tmp_path / "region.FCStd")
+    file.saveCopy(path)
+    again = FreeCAD.openDocument(path)
+    try:
+        target = again.getObject(target.Name)
+        assert type(target.SizeRegionList[0].Proxy).__name__ == "SizeRegion"
+        assert len(document.run(target).tets) == len(mesh.tets)
+    finally:
+        FreeCAD.closeDocument(again.Name)
+
+
+def test_size_regions_of_all_kinds(box):
+    target = document.add_mesh(box, max_size=4.0)
+    before = len(document.run(target).tets)
+    region = document.add_size_region(target, Region.box((0, 0, 0), (3, 10, 10), 1.0))
+    assert len(document.run(target).tets) > 2 * before
+    region.Kind = "Cylinder"
+    region.Point, region.SecondPoint = FreeCAD.Vector(0, 5, 5), FreeCAD.Vector(20, 5, 5)
+    with pytest.raises(InputError, match=region.Label):
+        document.run(target)
+    region.Radius = 1.0
+    assert len(document.run(target).tets) > 2 * before
