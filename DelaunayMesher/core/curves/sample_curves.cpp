@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/random.h"
 #include "curves/chains.h"
+#include "curves/near_samples.h"
 
 namespace dm {
 namespace {
@@ -15,7 +17,11 @@ constexpr double kMaxTurn = std::numbers::pi / 2;  // per part of a curve
 constexpr double kPiecesPerPart = 4;               // accuracy of the arc length
 constexpr double kSnap =
     0.1;  // a sample this near to an old point, relative to the old segments, replaces it
-constexpr double kSnapStep = 0.3;  // ... but not farther than this part of a step, to keep the order
+constexpr double kBeside = 0.4;     // distance over length within which samples of two curves are matched
+constexpr double kApart = 0.55;     // least distance of matched samples along the curve, over length
+constexpr double kTouching = 1e-5;  // ... and below which, over that, they are the same place
+constexpr double kAskew = 0.1;      // displacement of a matched sample along the curve, over the distance
+constexpr double kSnapStep = 0.3;   // ... but not farther than this part of a step, to keep the order
 
 // A point of the refined polyline: between old points `parent` and `parent + 1` of the chain.
 struct Piece {
@@ -57,6 +63,8 @@ class Sampler {
       parts_[c] = part_count(chains_[c]);
     }
     separate_twins();
+    for (const Chain& chain : chains_)
+      for (const Index p : {chain.points.front(), chain.points.back()}) add_near(plc_.points[p]);
     for (std::size_t c = 0; c < n; ++c) {
       sample(static_cast<Index>(c));
       context_.poll(static_cast<double>(c) / static_cast<double>(n));
@@ -121,7 +129,11 @@ class Sampler {
     const double s = pieces_.back().metric;
     double n = std::max(1.0, std::floor(s));
     if (s > std::sqrt(n * (n + 1))) ++n;  // parts longer and shorter than wanted by equal factors
-    n = std::max(n, std::ceil(turning(plc_.points, chain) / kMaxTurn - 0.1));
+    return std::max(static_cast<Index>(n), least_parts(chain));
+  }
+
+  Index least_parts(const Chain& chain) const {
+    const double n = std::ceil(turning(plc_.points, chain) / kMaxTurn - 0.1);
     return static_cast<Index>(std::max(n, chain.closed() ? 3.0 : 1.0));
   }
 
@@ -161,17 +173,79 @@ class Sampler {
     return -1;
   }
 
+  void add_near(const Vec3& p) { near_.add(p, kBeside * lengths_.at(p)); }
+
+  // A place on the chain opposite a sample of another one.
+  struct Foot {
+    double metric, distance;
+  };
+
+  // The feet of the samples beside the chain, those first that are nearest.
+  std::vector<Foot> find_feet() {
+    std::unordered_map<Index, Foot> nearest;
+    for (std::size_t k = 1; k < pieces_.size(); ++k) {
+      const Piece &a = pieces_[k - 1], &b = pieces_[k];
+      const Vec3 along = b.point - a.point;
+      const double length2 = norm2(along), span = b.metric - a.metric;
+      if (!(length2 > 0) || !(span > 0)) continue;
+      const Vec3 middle = 0.5 * (a.point + b.point);
+      near_.for_each_near(middle, kBeside * std::sqrt(length2) / span, [&](Index i) {
+        const auto& [q, reach] = near_.sample(i);
+        const double t = std::clamp(dot(q - a.point, along) / length2, 0.0, 1.0);
+        const double d = distance(q, a.point + t * along);
+        if (d > reach || d < kTouching * reach) return;
+        Random random(options_.jitter > 0 ? context_.seed : 0, 0x666f6f74, i);
+        const double askew = kAskew * d * span / std::sqrt(length2) * random.symmetric();
+        const auto [it, is_new] = nearest.try_emplace(i, Foot{a.metric + t * span + askew, d});
+        if (!is_new && d < it->second.distance) it->second = {a.metric + t * span + askew, d};
+      });
+    }
+    std::vector<Foot> feet;
+    for (const auto& [i, foot] : nearest) feet.push_back(foot);
+    std::sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) {
+      return std::tie(a.distance, a.metric) < std::tie(b.distance, b.metric);
+    });
+    return feet;
+  }
+
+  // Metric coordinates of the samples of a chain of about n parts.
+  std::vector<double> places(const Chain& chain, Index n, const std::vector<Foot>& feet) const {
+    const double whole = pieces_.back().metric;
+    std::vector<double> fixed{0, whole};
+    for (const Foot& foot : feet) {
+      const auto next = std::lower_bound(fixed.begin(), fixed.end(), foot.metric);
+      if (next == fixed.begin() || next == fixed.end()) continue;
+      if (*next - foot.metric < kApart || foot.metric - *(next - 1) < kApart) continue;
+      fixed.insert(next, foot.metric);
+    }
+    std::vector<double> result;
+    const double parts_per_metric = n / whole;
+    for (std::size_t k = 1; k < fixed.size(); ++k) {
+      const double gap = fixed[k] - fixed[k - 1];
+      const Index parts = std::max<Index>(1, static_cast<Index>(std::lround(gap * parts_per_metric)));
+      for (Index i = 1; i < parts; ++i) {
+        Random random(options_.jitter > 0 ? context_.seed : 0, 0x63757276, chain.points.front(),
+                      chain.segments[0], static_cast<Index>(result.size()) + 1);
+        result.push_back(fixed[k - 1] + gap / parts * (i + options_.jitter * random.symmetric()));
+      }
+      if (k + 1 < fixed.size()) result.push_back(fixed[k]);
+    }
+    return result;
+  }
+
   void sample(Index c) {
     const Chain& chain = chains_[c];
-    const Index n = parts_[c];
     Index last = chain.points.front();
-    if (n > 1) pieces_of(chain);
-    const double step = pieces_.back().metric / n;
+    std::vector<double> metrics;
+    if (parts_[c] > 1) {
+      pieces_of(chain);
+      metrics = places(chain, parts_[c], find_feet());
+      if (static_cast<Index>(metrics.size()) + 1 < least_parts(chain)) metrics = places(chain, parts_[c], {});
+    }
     std::size_t k = 1;
-    for (Index i = 1; i < n; ++i) {
-      Random random(options_.jitter > 0 ? context_.seed : 0, 0x63757276, chain.points.front(),
-                    chain.segments[0], i);
-      const Vec3 p = point_at(step * (i + options_.jitter * random.symmetric()), chain.edge, k);
+    for (Index i = 1; i <= static_cast<Index>(metrics.size()); ++i) {
+      const Vec3 p = point_at(metrics[i - 1], chain.edge, k);
+      add_near(p);
       const Index parent = pieces_[k].parent;
       Index v = replaceable(chain, parent, last, p);
       if (v < 0) {
@@ -216,6 +290,7 @@ class Sampler {
   std::vector<Chain> chains_;
   std::vector<Index> parts_;
   std::vector<Piece> pieces_;
+  NearSamples near_;
   std::vector<std::array<Index, 3>> insert_;  // PLC segment, order along it, sample
 };
 

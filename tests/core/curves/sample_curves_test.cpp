@@ -163,3 +163,54 @@ TEST_CASE("caps and floors of the length field") {
   CHECK(lengths.at({0, 0, 0}) == doctest::Approx(3));
   CHECK(lengths.at({1, 0, 0}) == doctest::Approx(2.5));
 }
+
+namespace {
+
+// Two straight edges along x, `gap` apart, the second longer and shifted, so that equal parts do not match.
+CurveSampling sample_strip(double gap) {
+  Plc plc;
+  plc.points = {{0, 0, 0}, {10, 0, 0}, {-0.37, gap, 0}, {10.9, gap, 0}};
+  plc.segments = {{0, 1}, {2, 3}};
+  plc.segment_edge = {0, 1};
+  plc.corners = plc.corner_vertex = {0, 1, 2, 3};
+  plc.edge_count = 2;
+  plc.vertex_count = 4;
+  plc.triangles = {{0, 1, 3}};
+  plc.triangle_face = {0};
+  plc.face_solids = {{1, 0}};
+  plc.solid_count = 1;
+  GeometryRecords records;
+  records.faces.push_back({});
+  records.edges.push_back({CurveKind::line, {0, 0, 0}, {1, 0, 0}, 0, -1});
+  records.edges.push_back({CurveKind::line, {0, gap, 0}, {1, 0, 0}, 0, -1});
+  const Geometry geometry(plc, records);
+  Context context;
+  SizeOptions sizes;
+  sizes.max_size = 1;
+  sizes.elements_per_circle = sizes.elements_across = 0;
+  const SizeField field(plc, geometry, sizes, context);
+  return sample_curves(plc, geometry, LengthField(field, 0.8), {}, context);
+}
+
+}  // namespace
+
+TEST_CASE("samples of two curves closer together than their parts stand opposite each other") {
+  for (const double gap : {0.2, 0.02, 1e-3, 1e-4}) {
+    CAPTURE(gap);
+    const CurveSampling s = sample_strip(gap);
+    std::vector<double> first;
+    for (std::size_t k = 0; k < s.segments.size(); ++k) {
+      const double length = distance(s.points[s.segments[k][0]], s.points[s.segments[k][1]]);
+      CHECK(length > 0.3);
+      CHECK(length < 1.5);
+      if (s.segment_edge[k] == 0) first.push_back(s.points[s.segments[k][1]].x);
+    }
+    for (const double x : first) {
+      double nearest = HUGE_VAL;
+      for (std::size_t k = 0; k < s.segments.size(); ++k)
+        if (s.segment_edge[k] == 1)
+          for (const Index v : s.segments[k]) nearest = std::min(nearest, std::abs(s.points[v].x - x));
+      CHECK(nearest < 0.11 * gap);
+    }
+  }
+}
