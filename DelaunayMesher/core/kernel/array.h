@@ -15,6 +15,13 @@
 
 namespace dm {
 
+// Asks for the cache line of an address.
+inline void prefetch([[maybe_unused]] const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#endif
+}
+
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T>);

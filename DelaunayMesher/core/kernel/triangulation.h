@@ -109,6 +109,13 @@ class Triangulation {
   };
   Arrays release() &&;
 
+  // Hints that the tetrahedron, and its points if its corners have come already, will be read soon.
+  void prefetch(Index tet) const { dm::prefetch(&corners_[tet]); }
+  void prefetch_points(Index tet) const {
+    for (const Index v : corners_[tet])
+      if (v >= 0) dm::prefetch(&points_[v]);
+  }
+
   // Memory held by all arrays.
   std::size_t bytes() const;
 

@@ -18,6 +18,7 @@ namespace {
 // Measured on prototypes and again here: docs/refinement.md has the figures behind each constant.
 constexpr int kTries = 40;
 constexpr double kSlack = 1.15;      // circumradius over the bound up to which good tetrahedra stay
+constexpr std::size_t kAhead = 6;    // tetrahedra in work whose data is asked for
 constexpr int kEncroachedTries = 3;  // consecutive refusals by the boundary before it is split
 constexpr double kFirstPick = 0.1, kPickStep = 0.03, kLargestPick = 0.6;  // f_k of a site inside
 constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
@@ -56,7 +57,7 @@ class Refinement {
     sliver_mode_ = true;
     std::size_t before = std::numeric_limits<std::size_t>::max();
     for (round_ = 1; round_ <= options_.sliver_rounds; ++round_) {
-      collect();
+      collect_slivers();
       report_.slivers += static_cast<std::int64_t>(next_.size());
       if (next_.empty() || static_cast<double>(next_.size()) > kWorthARound * static_cast<double>(before))
         break;
@@ -116,6 +117,21 @@ class Refinement {
     for (Index t = 0; t < tets_.slot_count(); ++t) push_if_bad(t);
   }
 
+  // All of them; later only those tried in the last round, which are all there are unless tetrahedra have
+  // changed sides meanwhile.
+  void collect_slivers() {
+    if (round_ == 1 || report_.flips != flips_before_) {
+      collect();
+    } else {
+      std::sort(tried_.begin(), tried_.end());
+      tried_.erase(std::unique(tried_.begin(), tried_.end()), tried_.end());
+      next_.clear();
+      for (const Index t : tried_) push_if_bad(t);
+    }
+    tried_.clear();
+    flips_before_ = report_.flips;
+  }
+
   // Morton order of the circumcentres' cells: neighbours in the list are neighbours in memory.
   void sort_along_curve(std::vector<Index>& list) const {
     Vec3 low = tets_.point(0), high = low;
@@ -144,10 +160,14 @@ class Refinement {
     while (!next_.empty()) {
       work_.swap(next_);
       next_.clear();
-      for (const Index tet : work_) {
+      for (std::size_t k = 0; k < work_.size(); ++k) {
+        if (k + 2 * kAhead < work_.size()) tets_.prefetch(work_[k + 2 * kAhead]);
+        if (k + kAhead < work_.size()) tets_.prefetch_points(work_[k + kAhead]);
+        const Index tet = work_[k];
         if ((++steps_ & 63) == 0) context_.poll(0.95 * static_cast<double>(report_.sites) / expected_sites_);
         process(tet);
       }
+      if (sliver_mode_) tried_.insert(tried_.end(), work_.begin(), work_.end());
     }
   }
 
@@ -382,7 +402,8 @@ class Refinement {
   std::vector<char> unsplittable_;  // per labelled triangle: splitting it has failed before
   std::uint64_t steps_ = 0;
   Cavity cavity_;
-  std::vector<Index> work_, next_;
+  std::vector<Index> work_, next_, tried_;   // tried_: in the last round of slivers
+  std::int64_t flips_before_ = 0;            // that round
   std::vector<std::pair<Index, int>> hits_;  // labelled triangles that refused a site, and how often
   std::vector<Segment> segments_;            // segments that surface sites would swallow
 };
