@@ -7,6 +7,7 @@ running version of FreeCAD wants it.
 
 import os
 import shutil
+import tempfile
 
 import FreeCAD
 
@@ -94,6 +95,10 @@ class CalculixTools:
 
         ccx_program()
         self.tool, self.solver = CalculiXTools(solver), solver
+        if not os.path.isdir(
+            solver.WorkingDirectory
+        ):  # FreeCAD makes none while its preferences are untouched
+            solver.WorkingDirectory = tempfile.mkdtemp(prefix="fem_")
         self.tool.process.finished.disconnect()
         self.tool.prepare()
 

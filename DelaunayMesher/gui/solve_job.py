@@ -22,6 +22,7 @@ class SolveJob:
     """Prepared by the constructor (raises MeshError), then start(), and store() once `finished` and good."""
 
     stage, fraction = "solve", None
+    shown = None  # the object with the stresses, after store()
 
     def __init__(self, target):
         self.where = (target.Document.Name, target.Name)
@@ -70,7 +71,7 @@ class SolveJob:
             except MeshError:
                 target.Document.abortTransaction()
                 raise
-            show_stress(result, self.calculation.analysis)
+            self.shown = show_stress(result, self.calculation.analysis)
             for item in (target, target.Shape):
                 item.ViewObject.hide()
             target.Document.commitTransaction()
@@ -93,14 +94,17 @@ def patience():
 
 
 def show_stress(result, analysis):
-    """Colour the result by its von Mises stress: the pipeline of FreeCAD 1.0 and later, or its mesh."""
+    """Colour the pipeline of FreeCAD 1.0 and later, or the mesh of the result, by the von Mises stress.
+
+    Returns the object that FreeCAD has a panel for.
+    """
     pipelines = [item for item in analysis.Group if item.isDerivedFrom("Fem::FemPostPipeline")]
     if not pipelines:
         from femresult.resulttools import show_result
 
         result.Mesh.ViewObject.show()
         show_result(result, "Sabs")
-        return
+        return result
     if hasattr(result, "Mesh") and result.Mesh:
         result.Mesh.ViewObject.hide()
     view = pipelines[-1].ViewObject
@@ -108,3 +112,4 @@ def show_stress(result, analysis):
     view.DisplayMode = "Surface"
     fields = view.getEnumerationsOfProperty("Field")
     view.Field = next((name for name in STRESS_FIELDS if name in fields), view.Field)
+    return pipelines[-1]

@@ -34,7 +34,7 @@ class MeshPanel:
     def __init__(self, target):
         MeshPanel.current = self
         self.target = target
-        self.job = self.result = None
+        self.job = self.shown = None
         self.then_solve = False
         self.options_box = OptionsBox(target)
         self.run_box = RunBox()
@@ -120,8 +120,9 @@ class MeshPanel:
     def take(self, job, target):
         """Put what a job made into the document and tell about it."""
         if isinstance(job, SolveJob):
-            self.result = job.store(target)
-            self.run_box.show_solution(job, *extremes(self.result))
+            result = job.store(target)
+            self.shown = job.shown
+            self.run_box.show_solution(job, *extremes(result))
         else:
             job.store(target)
             self.run_box.succeed(job, mesh_object.stored_report(target))
@@ -147,9 +148,9 @@ class MeshPanel:
         QtCore.QTimer.singleShot(0, self.change_to_results)
 
     def change_to_results(self):
-        result = self.result
+        shown = self.shown
         if self.reject():
-            FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name)
+            FreeCADGui.getDocument(shown.Document.Name).setEdit(shown.Name)
 
     def reject(self):
         """Close button and Esc: stop the run first, close the second time."""

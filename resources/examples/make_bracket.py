@@ -1,5 +1,5 @@
-"""Builds the example part, a mounting bracket, and saves it as bracket.FCStd and bracket.step beside this
-file.
+"""Builds the example part, a mounting bracket, and saves it as bracket.FCStd, bracket.step and bracket.stl
+beside this file.
 
     freecadcmd resources/examples/make_bracket.py
 
@@ -18,6 +18,7 @@ from DelaunayMesher.document import find_freecad  # noqa: E402
 
 find_freecad()
 import FreeCAD  # noqa: E402
+import MeshPart  # noqa: E402
 import Part  # noqa: E402
 from FreeCAD import Vector  # noqa: E402
 
@@ -126,6 +127,8 @@ def main():
     solid.exportStep(step)
     if not Part.read(step).isValid():
         raise RuntimeError("the bracket does not survive STEP")
+    surface = MeshPart.meshFromShape(Shape=solid.copy(), LinearDeflection=0.1, AngularDeflection=0.3)
+    surface.write(os.path.join(HERE, "bracket.stl"))
     print(
         "bracket: %d faces, %.0f mm3, sharpest edge %.0f degrees"
         % (len(solid.Faces), solid.Volume, sharpest_edge(solid))
