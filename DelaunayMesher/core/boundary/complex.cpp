@@ -102,6 +102,15 @@ void BoundaryComplex::split_segment(Index a, Index b, Index v) {
   }
 }
 
+void BoundaryComplex::drop_bare_segments() {
+  std::erase_if(segments_, [&](const auto& entry) {
+    const auto [a, b] = segment_of_key(entry.first);
+    const bool bare = !has_edge(a, b);
+    if (bare) acute_.erase(entry.first);
+    return bare;
+  });
+}
+
 Index opposite_corner(const BoundaryComplex& complex, Index t, Index a, Index b) {
   const Triangle& q = complex.corners(t);
   for (const Index v : q)

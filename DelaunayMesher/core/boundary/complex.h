@@ -62,6 +62,8 @@ class BoundaryComplex {
   void remove(Index t);
   // Replaces segment (a, b) by (a, v) and (v, b); v becomes a point of its CAD edge.
   void split_segment(Index a, Index b, Index v);
+  // Forgets the segments that are an edge of no triangle any more.
+  void drop_bare_segments();
 
  private:
   std::vector<LabelledTriangle> triangles_;

@@ -20,7 +20,10 @@ class Partition {
     claim();
     spread();
     empty_impossible_contacts();
-    return drop_labels_inside() + label_interfaces();
+    const Index replaced = drop_labels_inside() + label_interfaces();
+    drop_repeated_labels();
+    complex_.drop_bare_segments();
+    return replaced;
   }
 
  private:
@@ -160,6 +163,16 @@ class Partition {
     return std::max_element(votes.begin(), votes.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
         ->first;
+  }
+
+  // Of two labels with the same corners only one is found from the tetrahedra.
+  void drop_repeated_labels() {
+    for (Index t = 0; t < complex_.slot_count(); ++t) {
+      if (!complex_.alive(t)) continue;
+      const auto [a, b, c] = complex_.corners(t);
+      const Face f = find_face(tets_, a, b, c);
+      if (f < 0 || !tets_.marked(f / 4, f % 4) || complex_.find(a, b, c) != t) complex_.remove(t);
+    }
   }
 
   LabelledTriangulation& mesh_;

@@ -6,8 +6,8 @@
 // the face between them becomes a boundary triangle of the CAD face that has these two solids and most
 // corners there. Precondition: all triangles of the complex that are faces of the triangulation are marked;
 // the others are in `missing`.  Postcondition (check_boundary): as for recover_boundary; every boundary node
-// still lies on its CAD face, but the boundary between the nodes is replaced locally. Cost: linear.  Limits:
-// thin features that are missing entirely vanish.
+// still lies on its CAD face, but the boundary between the nodes is replaced locally, and a segment that is
+// no edge of it any more is dropped. Cost: linear.  Limits: thin features that are missing entirely vanish.
 #pragma once
 
 #include "boundary/recovery.h"

@@ -60,6 +60,9 @@ Index carve_flat_tets(LabelledTriangulation& mesh) {
     }
     carved += changed;
   }
+  // Carving can take an edge between two faces of one plane away, and so can a split where the boundary was
+  // replaced.
+  mesh.boundary.drop_bare_segments();
   return carved;
 }
 

@@ -9,7 +9,7 @@
 
 namespace dm {
 
-// Returns the number of tetrahedra left out.
+// Returns the number of tetrahedra left out.  Segments that are no edge of the mesh any more are dropped.
 Index carve_flat_tets(LabelledTriangulation& mesh);
 
 }  // namespace dm
