@@ -6,6 +6,7 @@
 #include "functions.h"
 #include "inputs.h"
 #include "sizing/size_field.h"
+#include "surfaces/absorb.h"
 #include "surfaces/crossings.h"
 #include "surfaces/remesh.h"
 
@@ -50,9 +51,11 @@ nb::dict surface_mesh(const nb::dict& plc, const nb::object& records, const nb::
   SurfaceMesh mesh;
   {
     const nb::gil_scoped_release release;
-    const SizeField field(core_plc, geometry, size_options, context);
-    mesh = mesh_surfaces(core_plc, geometry, field, {}, context);
-    check_surface_mesh(mesh, core_plc, geometry);
+    Absorbed absorbed;
+    const Plc kept = absorb_small_features(core_plc, geometry, size_options, context, absorbed);
+    const SizeField field(kept, geometry, size_options, context);
+    mesh = mesh_surfaces(kept, geometry, field, {}, context);
+    check_surface_mesh(mesh, kept, geometry);
   }
   nb::dict out;
   out["points"] = to_numpy<double>(std::move(mesh.points));

@@ -6,11 +6,14 @@
 #include "refinement/carve.h"
 #include "refinement/extract.h"
 #include "refinement/refine.h"
+#include "surfaces/absorb.h"
 #include "surfaces/remesh.h"
 
 namespace dm {
 
 namespace {
+
+constexpr std::size_t kNamedElements = 12;  // in a warning
 
 class StageClock {
  public:
@@ -53,6 +56,20 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   add("refinement_slivers", static_cast<double>(refinement.slivers));
 }
 
+std::string absorbed_warning(const Absorbed& absorbed) {
+  std::string text;
+  std::size_t named = 0;
+  const auto add = [&](const char* name, const std::vector<Index>& elements) {
+    for (const Index i : elements)
+      if (++named <= kNamedElements) text += (text.empty() ? "" : ", ") + (name + std::to_string(i + 1));
+  };
+  add("Face", absorbed.faces);
+  add("Edge", absorbed.edges);
+  if (named > kNamedElements) text += " and " + std::to_string(named - kNamedElements) + " more";
+  return "far smaller than the elements, and taken together with what lies beside them: " + text +
+         "; a size given to them, or a minimum size, keeps them";
+}
+
 void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
   if (recovery.replaced)
     result.warnings.push_back(
@@ -66,18 +83,21 @@ void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport
 
 }  // namespace
 
-MeshResult make_mesh(const Plc& plc, GeometryRecords records, const MesherOptions& options,
+MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOptions& options,
                      Context& context) {
   MeshResult result;
   StageClock clock(result);
   context.begin("plc");
-  check_plc(plc);
-  const Geometry geometry(plc, std::move(records));
+  check_plc(given);
+  const Geometry geometry(given, std::move(records));
+  Absorbed absorbed;
+  const Plc plc = absorb_small_features(given, geometry, options.size, context, absorbed);
+  if (absorbed.any()) result.warnings.push_back(absorbed_warning(absorbed));
   clock.stop("plc");
 
   context.begin("sizing");
   const SizeField size(plc, geometry, options.size, context);
-  result.warnings = size.warnings();
+  result.warnings.insert(result.warnings.end(), size.warnings().begin(), size.warnings().end());
   refuse_if_too_many(size, options.max_elements);
   result.statistics.emplace_back("predicted_tetrahedra", size.predicted_tetrahedra());
   clock.stop("sizing");

@@ -188,7 +188,6 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
                               const std::vector<double>& triangle_size, Context& context,
                               std::vector<SizeSource>& sources) {
   ProximityResult result{options.max_size, HUGE_VAL, {}};
-  if (!(options.elements_across > 0)) return result;
   Prober prober(plc, geometry, boundary, options);
   double others = 0;
   for (std::size_t t = 0; t < plc.triangles.size(); ++t) {

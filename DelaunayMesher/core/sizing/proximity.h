@@ -17,12 +17,12 @@
 namespace dm {
 
 struct ProximityResult {
-  double finest = 0;  // mm, smallest size that walls and gaps get
-  double wanted = 0;  // mm, smallest size that their widths ask for; infinity = no wall or gap found
+  double finest = 0;         // mm, smallest size that walls and gaps get
+  double wanted = HUGE_VAL;  // mm, smallest size that their widths ask for; infinity = no wall or gap found
   std::vector<std::array<Vec3, 3>> walls;  // triangles with a thin wall behind them
 };
 
-// triangle_size: size on each triangle by the other sources.
+// Precondition: elements_across > 0.  triangle_size: size on each triangle by the other sources.
 ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const BoundaryTree& boundary,
                               const SizeOptions& options, const SizeLimits& limits,
                               const std::vector<double>& triangle_size, Context& context,

@@ -1,6 +1,7 @@
 #include "sizing/size_field.h"
 
 #include <cstdio>
+#include <optional>
 #include <unordered_set>
 
 #include "base/random.h"
@@ -96,13 +97,16 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
   check_options(options);
   if (plc.triangles.empty()) throw Failure("sizing", "empty", "There is nothing to mesh.");
   const SizeLimits limits = size_limits(options);
-  const BoundaryTree boundary(plc);
   std::vector<SizeSource> sources;
   std::vector<double> triangle_size(plc.triangles.size(), options.max_size);
   add_given_sizes(plc, options, triangle_size, sources);
   add_curvature(plc, geometry, options, limits, context, triangle_size, sources);
-  const ProximityResult proximity =
-      add_proximity(plc, geometry, boundary, options, limits, triangle_size, context, sources);
+  std::optional<BoundaryTree> boundary;  // costs more than a field without walls and sources
+  ProximityResult proximity;
+  if (options.elements_across > 0) {
+    boundary.emplace(plc);
+    proximity = add_proximity(plc, geometry, *boundary, options, limits, triangle_size, context, sources);
+  }
   if (proximity.wanted < 0.99 * proximity.finest) impl_->warnings.push_back(limited_walls(proximity));
   FieldSources field;
   field.max_size = options.max_size;
@@ -117,7 +121,8 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
   const double volume = domain_volume(plc);
   double inverse_volume = volume / (options.max_size * options.max_size * options.max_size);
   if (!field.constant()) {
-    impl_->octree = std::make_unique<Octree>(field, plc, boundary, volume, context);
+    if (!boundary) boundary.emplace(plc);
+    impl_->octree = std::make_unique<Octree>(field, plc, *boundary, volume, context);
     impl_->smallest = std::max(field.smallest(), impl_->octree->smallest());
     impl_->largest = impl_->octree->largest();
     impl_->constant = false;

@@ -4,7 +4,8 @@
 
 namespace dm {
 
-PatchSource::PatchSource(const Plc& plc, const CurveSampling& curves) : plc_(plc), curves_(curves) {
+PatchSource::PatchSource(const Plc& plc, const CurveSampling& curves)
+    : plc_(plc), curves_(curves), segments_(plc) {
   first_.assign(plc.face_solids.size() + 1, 0);
   for (Index f : plc.triangle_face) ++first_[f + 1];
   for (std::size_t f = 0; f + 1 < first_.size(); ++f) first_[f + 1] += first_[f];
@@ -12,18 +13,6 @@ PatchSource::PatchSource(const Plc& plc, const CurveSampling& curves) : plc_(plc
   std::vector<Index> fill(first_.begin(), first_.end() - 1);
   for (std::size_t t = 0; t < plc.triangles.size(); ++t)
     triangles_[fill[plc.triangle_face[t]]++] = static_cast<Index>(t);
-  segment_ends_.reserve(plc.segments.size());
-  for (std::size_t s = 0; s < plc.segments.size(); ++s) {
-    const auto [a, b] = std::minmax(plc.segments[s][0], plc.segments[s][1]);
-    segment_ends_.push_back({a, b, static_cast<Index>(s)});
-  }
-  std::sort(segment_ends_.begin(), segment_ends_.end());
-}
-
-Index PatchSource::find_segment(Index a, Index b) const {
-  const std::array<Index, 3> key{std::min(a, b), std::max(a, b), -1};
-  const auto at = std::lower_bound(segment_ends_.begin(), segment_ends_.end(), key);
-  return at != segment_ends_.end() && (*at)[0] == key[0] && (*at)[1] == key[1] ? (*at)[2] : -1;
 }
 
 // Twins of the half-edges of a triangle list (PLC points), -1 along segments and wherever the edge has not

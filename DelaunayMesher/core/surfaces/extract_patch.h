@@ -6,6 +6,7 @@
 #include "curves/sample_curves.h"
 #include "plc/plc.h"
 #include "surfaces/face_patch.h"
+#include "surfaces/small_features.h"
 
 namespace dm {
 
@@ -20,7 +21,7 @@ class PatchSource {
   FacePatch extract(Index face) const;
   Index triangle_count(Index face) const { return first_[face + 1] - first_[face]; }
   // PLC segment joining two points, or -1.
-  Index find_segment(Index a, Index b) const;
+  Index find_segment(Index a, Index b) const { return segments_.find(a, b); }
 
  private:
   std::vector<Index> pair_half_edges(const std::vector<Index>& corners) const;
@@ -29,8 +30,8 @@ class PatchSource {
 
   const Plc& plc_;
   const CurveSampling& curves_;
-  std::vector<Index> first_, triangles_;            // by face
-  std::vector<std::array<Index, 3>> segment_ends_;  // sorted: lower point, higher point, segment
+  std::vector<Index> first_, triangles_;  // by face
+  SegmentTable segments_;
 };
 
 }  // namespace dm

@@ -1,0 +1,346 @@
+#include "surfaces/absorb.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "sizing/box_tree.h"
+#include "surfaces/crossings.h"
+
+namespace dm {
+namespace {
+
+constexpr double kAbsorbed = 1.0 / 50;  // width over the size given there
+constexpr double kWidest = 2.5;         // extent of the points that become one, over the tolerance
+constexpr double kTurned = 0.3;         // cosine between a triangle's normals before and after
+constexpr double kAcute = 0.77;         // cosine of the angle between faces that may come to meet: 40 degrees
+
+// Points that become one, with the box round them.
+class Clusters {
+ public:
+  explicit Clusters(const std::vector<Vec3>& points) : parent_(points.size()), box_(points.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (std::size_t p = 0; p < points.size(); ++p) box_[p].add(points[p]);
+  }
+  Index find(Index p) {
+    while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
+    return p;
+  }
+  // False, and nothing done, if the joined points would extend over more than `widest`.
+  bool join(Index p, Index q, double widest) {
+    p = find(p);
+    q = find(q);
+    if (p == q) return true;
+    Box both = box_[p];
+    both.add(box_[q]);
+    if (norm(both.extent()) > widest) return false;
+    parent_[std::max(p, q)] = std::min(p, q);
+    box_[std::min(p, q)] = both;
+    return true;
+  }
+
+ private:
+  std::vector<Index> parent_;
+  std::vector<Box> box_;
+};
+
+class Absorber {
+ public:
+  Absorber(const Plc& plc, const Geometry& geometry, const Tolerance& tolerance)
+      : given_(plc),
+        plc_(plc),
+        tolerance_(tolerance),
+        features_(find_small_features(plc_, geometry, tolerance)) {}
+
+  Plc run(Absorbed& absorbed) {
+    if (features_.empty()) return given_;
+    active_.assign(features_.size(), 1);
+    rank_points();
+    find_boundaries();
+    do {
+      if (std::find(active_.begin(), active_.end(), 1) == active_.end()) return given_;
+      join_points();
+      vanish_faces();
+      make_triangles();
+      bad_.assign(plc_.points.size(), 0);
+      check_normals();
+      check_edges();
+      if (!any_bad()) check_crossings();
+    } while (reject_bad());
+    Plc result = make_plc();
+    try {
+      check_plc(result);
+    } catch (const Failure&) {
+      return given_;  // a body smaller than the tolerance, say
+    }
+    report(result, absorbed);
+    return result;
+  }
+
+ private:
+  // The point that stays of those that become one: a CAD vertex, else that on the first edge.
+  void rank_points() {
+    const Index last = plc_.edge_count + plc_.vertex_count;
+    rank_.assign(plc_.points.size(), last);
+    for (std::size_t s = 0; s < plc_.segments.size(); ++s)
+      for (const Index p : plc_.segments[s])
+        rank_[p] = std::min(rank_[p], plc_.vertex_count + plc_.segment_edge[s]);
+    for (std::size_t c = 0; c < plc_.corners.size(); ++c)
+      rank_[plc_.corners[c]] = std::min(rank_[plc_.corners[c]], plc_.corner_vertex[c]);
+  }
+
+  void find_boundaries() {
+    std::vector<char> wanted(plc_.face_solids.size(), 0);
+    for (const SmallFeature& feature : features_)
+      if (feature.face >= 0) wanted[feature.face] = 1;
+    boundaries_ = SegmentTable(plc_).boundaries(plc_, wanted);
+  }
+
+  // Where too many would come together (a curve of many tiny edges), the longer ones stay.
+  void join_points() {
+    Clusters clusters(plc_.points);
+    for (std::size_t k = 0; k < features_.size(); ++k)
+      for (const auto& [p, q] : features_[k].pairs) {
+        if (!active_[k]) break;
+        if (clusters.join(p, q, kWidest * tolerance_(plc_.points[p]))) continue;
+        refused_.push_back(static_cast<Index>(k));
+        break;
+      }
+    const Index n = static_cast<Index>(plc_.points.size());
+    std::vector<Index> best(n, -1);
+    for (Index p = 0; p < n; ++p) {
+      Index& b = best[clusters.find(p)];
+      if (b < 0 || rank_[p] < rank_[b]) b = p;
+    }
+    to_.resize(n);
+    joined_.assign(n, 0);
+    for (Index p = 0; p < n; ++p) {
+      to_[p] = best[clusters.find(p)];
+      if (to_[p] != p) joined_[p] = joined_[to_[p]] = 1;
+    }
+  }
+
+  // A face can be left out if its boundary, run through once, runs through every segment both ways.
+  void vanish_faces() {
+    vanished_.assign(plc_.face_solids.size(), 0);
+    for (std::size_t k = 0; k < features_.size(); ++k) {
+      const Index f = features_[k].face;
+      if (f < 0 || !active_[k]) continue;
+      std::vector<Segment> rest;
+      for (const auto& [a, b] : boundaries_[f])
+        if (to_[a] != to_[b]) rest.push_back({to_[a], to_[b]});
+      std::vector<Segment> back;
+      for (const auto& [a, b] : rest) back.push_back({b, a});
+      std::sort(rest.begin(), rest.end());
+      std::sort(back.begin(), back.end());
+      vanished_[f] = rest == back;
+      if (!vanished_[f]) refused_.push_back(static_cast<Index>(k));
+    }
+  }
+
+  void make_triangles() {
+    triangles_.clear();
+    source_.clear();
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
+      if (vanished_[plc_.triangle_face[t]]) continue;
+      const auto [a, b, c] = plc_.triangles[t];
+      const Triangle v{to_[a], to_[b], to_[c]};
+      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+      triangles_.push_back(v);
+      source_.push_back(static_cast<Index>(t));
+    }
+  }
+
+  bool moved(std::size_t t) const { return triangles_[t] != plc_.triangles[source_[t]]; }
+  Index face(std::size_t t) const { return plc_.triangle_face[source_[t]]; }
+  void blame(std::size_t t) {
+    for (const Index p : triangles_[t]) bad_[p] |= joined_[p];
+  }
+  bool any_bad() const { return std::find(bad_.begin(), bad_.end(), 1) != bad_.end() || !refused_.empty(); }
+
+  Vec3 normal(const Triangle& v) const {
+    return area_vector(plc_.points[v[0]], plc_.points[v[1]], plc_.points[v[2]]);
+  }
+
+  void check_normals() {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!moved(t)) continue;
+      const Vec3 before = normal(plc_.triangles[source_[t]]), after = normal(triangles_[t]);
+      if (dot(before, after) < kTurned * std::sqrt(norm2(before) * norm2(after))) blame(t);
+    }
+  }
+
+  struct Side {
+    Index a, b;  // a < b
+    std::size_t triangle;
+    bool forward;
+  };
+
+  // Edges with an end that is new: on a segment no two faces may meet at an acute angle that did not before;
+  // elsewhere two triangles of one face meet, run through both ways.
+  void check_edges() {
+    std::vector<Side> sides;
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
+        if (joined_[a] || joined_[b]) sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
+      }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+      return std::tie(x.a, x.b, x.triangle) < std::tie(y.a, y.b, y.triangle);
+    });
+    std::vector<Segment> segments;
+    for (const auto& [a, b] : plc_.segments)
+      if (to_[a] != to_[b]) segments.push_back({std::min(to_[a], to_[b]), std::max(to_[a], to_[b])});
+    std::sort(segments.begin(), segments.end());
+    for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+      while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b) ++j;
+      const bool segment =
+          std::binary_search(segments.begin(), segments.end(), Segment{sides[i].a, sides[i].b});
+      const bool smooth = j - i == 2 && face(sides[i].triangle) == face(sides[i + 1].triangle) &&
+                          sides[i].forward != sides[i + 1].forward;
+      if (!segment && !smooth) blame(sides[i].triangle);
+      for (std::size_t k = i; k < j; ++k)
+        for (std::size_t l = k + 1; l < j; ++l)
+          check_pair(sides[i].a, sides[i].b, sides[k].triangle, sides[l].triangle);
+    }
+  }
+
+  void check_pair(Index a, Index b, std::size_t s, std::size_t t) {
+    int shared = 0;
+    for (const Index p : plc_.triangles[source_[s]])
+      for (const Index q : plc_.triangles[source_[t]]) shared += p == q;
+    if (shared >= 2) return;
+    const Vec3 u = across(a, b, s), v = across(a, b, t);
+    if (dot(u, v) > kAcute * std::sqrt(norm2(u) * norm2(v))) blame(s), blame(t);
+  }
+
+  // From the edge (a, b) of t to its third corner, at a right angle to the edge.
+  Vec3 across(Index a, Index b, std::size_t t) const {
+    Index apex = a;
+    for (const Index p : triangles_[t])
+      if (p != a && p != b) apex = p;
+    const Vec3 along = plc_.points[b] - plc_.points[a], d = plc_.points[apex] - plc_.points[a];
+    return d - (dot(d, along) / norm2(along)) * along;
+  }
+
+  void check_crossings() {
+    std::vector<std::array<Index, 2>> before;
+    bool looked = false;
+    for (const auto& [s, t] : find_crossings(plc_.points, triangles_)) {
+      if (!moved(s) && !moved(t)) continue;
+      if (!looked) before = find_crossings(plc_.points, plc_.triangles);
+      looked = true;
+      const std::array<Index, 2> pair{std::min(source_[s], source_[t]), std::max(source_[s], source_[t])};
+      if (std::binary_search(before.begin(), before.end(), pair)) continue;
+      blame(s);
+      blame(t);
+    }
+  }
+
+  // Features with a part in what is wrong stay.  True if there are any.
+  bool reject_bad() {
+    bool changed = !refused_.empty();
+    for (const Index k : refused_) active_[k] = 0;
+    refused_.clear();
+    for (std::size_t k = 0; k < features_.size(); ++k)
+      for (const auto& [p, q] : features_[k].pairs) {
+        if (!active_[k] || !bad_[to_[p]]) continue;
+        active_[k] = 0;
+        changed = true;
+      }
+    return changed;
+  }
+
+  Plc make_plc() const {
+    Plc result = plc_;
+    result.triangles = triangles_;
+    std::vector<char> used(plc_.points.size(), 0);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      result.triangle_face[t] = face(t);
+      for (const Index p : triangles_[t]) used[p] = 1;
+    }
+    result.triangle_face.resize(triangles_.size());
+    keep_segments(result);
+    result.corners.clear();
+    result.corner_vertex.clear();
+    for (std::size_t c = 0; c < plc_.corners.size(); ++c) {
+      const Index p = plc_.corners[c];
+      if (to_[p] != p || !used[p]) continue;
+      result.corners.push_back(p);
+      result.corner_vertex.push_back(plc_.corner_vertex[c]);
+    }
+    return result;
+  }
+
+  // Of segments that have become one the first edge's stays; those without a triangle are gone.
+  void keep_segments(Plc& result) const {
+    std::vector<Segment> sides;
+    for (const auto& [a, b, c] : triangles_)
+      for (const auto& [p, q] : {Segment{a, b}, Segment{b, c}, Segment{c, a}})
+        if (joined_[p] || joined_[q]) sides.push_back({std::min(p, q), std::max(p, q)});
+    std::sort(sides.begin(), sides.end());
+    std::vector<std::array<Index, 4>> all;  // ends in order, edge, segment
+    for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
+      const auto [a, b] = std::minmax(to_[plc_.segments[s][0]], to_[plc_.segments[s][1]]);
+      if (a == b) continue;
+      const bool near = joined_[a] || joined_[b];
+      if (near && !std::binary_search(sides.begin(), sides.end(), Segment{a, b})) continue;
+      all.push_back({a, b, plc_.segment_edge[s], static_cast<Index>(s)});
+    }
+    std::sort(all.begin(), all.end());
+    std::vector<Index> kept;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (i == 0 || all[i][0] != all[i - 1][0] || all[i][1] != all[i - 1][1]) kept.push_back(all[i][3]);
+    std::sort(kept.begin(), kept.end());
+    result.segments.clear();
+    result.segment_edge.clear();
+    for (const Index s : kept) {
+      result.segments.push_back({to_[plc_.segments[s][0]], to_[plc_.segments[s][1]]});
+      result.segment_edge.push_back(plc_.segment_edge[s]);
+    }
+  }
+
+  void report(const Plc& result, Absorbed& absorbed) const {
+    const auto gone = [](const std::vector<Index>& before, const std::vector<Index>& after) {
+      std::vector<Index> a = before, b = after, rest;
+      for (auto* v : {&a, &b}) {
+        std::sort(v->begin(), v->end());
+        v->erase(std::unique(v->begin(), v->end()), v->end());
+      }
+      std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+      return rest;
+    };
+    absorbed.faces = gone(given_.triangle_face, result.triangle_face);
+    absorbed.edges = gone(given_.segment_edge, result.segment_edge);
+    absorbed.vertices = gone(given_.corner_vertex, result.corner_vertex);
+  }
+
+  const Plc& given_;
+  Plc plc_;  // with divided segments
+  const Tolerance& tolerance_;
+  std::vector<SmallFeature> features_;
+  std::vector<char> active_;                      // by feature
+  std::vector<Index> rank_;                       // by point
+  std::vector<std::vector<Segment>> boundaries_;  // by face, of features only
+  std::vector<Index> to_;                         // by point: the one that it becomes
+  std::vector<char> joined_;                      // by point: it has become, or others have become it
+  std::vector<char> bad_;                         // by point that stays: may not be joined as it was
+  std::vector<Index> refused_;                    // features
+  std::vector<char> vanished_;                    // by face
+  std::vector<Triangle> triangles_;
+  std::vector<Index> source_;  // of triangles_, in plc_
+};
+
+}  // namespace
+
+Plc absorb_small_features(const Plc& plc, const Geometry& geometry, SizeOptions sizes, Context& context,
+                          Absorbed& absorbed) {
+  // What the mesher finds by itself, a fillet's curvature say, is no reason to keep the fillet.
+  sizes.elements_per_circle = sizes.elements_across = 0;
+  const SizeField given(plc, geometry, sizes, context);
+  const double most = sizes.min_size > 0 ? sizes.min_size : HUGE_VAL;
+  const Tolerance tolerance = [&](const Vec3& p) { return std::min(most, kAbsorbed * given.at(p)); };
+  return Absorber(plc, geometry, tolerance).run(absorbed);
+}
+
+}  // namespace dm

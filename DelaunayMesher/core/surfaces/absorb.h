@@ -1,0 +1,35 @@
+// CAD edges and faces far smaller than the elements are absorbed before anything is sized by them.
+//
+// Idea: a step of a thousandth of the element size (a print, a modelling error), a fillet with such a radius,
+// an edge left over by a Boolean operation can only be meshed with tiny or with flat elements all along.  The
+// points of a tiny edge become one; those that face each other across a narrow face do, and the face
+// disappears: its two long edges become one.  Faces beside it then end up to the tolerance off their surface.
+//
+// Nothing is absorbed where that would do harm: where the boundary of the face does not cancel itself out,
+// where a triangle would turn over, coincide with or cross another, or two faces meet at an acute angle (the
+// rim of a thin plate, the floor of a slit).  What is rejected at one place is kept whole.
+//
+// Precondition: check_plc.  Postcondition: check_plc; points keep their numbers, new ones follow; CAD
+// elements that are gone are reported and have no triangles, segments or corners any more.
+// Cost: linear where nothing is small, else a few sorts of the triangles round what is.
+// Known limit: a face is absorbed whole or not at all, so one that is narrow in parts stays.
+#pragma once
+
+#include <vector>
+
+#include "base/context.h"
+#include "sizing/size_field.h"
+#include "surfaces/small_features.h"
+
+namespace dm {
+
+struct Absorbed {
+  std::vector<Index> faces, edges, vertices;  // CAD elements that are gone, ascending
+  bool any() const { return !faces.empty() || !edges.empty(); }
+};
+
+// The tolerance is a fiftieth of the size given at the place, or min_size if that is given and smaller.
+Plc absorb_small_features(const Plc& plc, const Geometry& geometry, SizeOptions sizes, Context& context,
+                          Absorbed& absorbed);
+
+}  // namespace dm

@@ -1,0 +1,178 @@
+#include "surfaces/absorb.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "shapes.h"
+#include "surfaces/remesh.h"
+
+using namespace dm;
+using shapes::Shape;
+
+namespace {
+
+// A profile in the (x, z) plane, counterclockwise seen from -y and star-shaped about its first point, as a
+// prism of the depth d along y.  Faces: one per side of the profile, then front and back.
+Shape prism(const std::vector<std::array<double, 2>>& profile, double d) {
+  Shape s;
+  const std::size_t n = profile.size();
+  const auto at = [&](std::size_t i, double y) { return Vec3{profile[i % n][0], y, profile[i % n][1]}; };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 a = at(i, 0), b = at(i + 1, 0);
+    s.quad(s.face(shapes::plane(a, cross({0, 1, 0}, b - a)), 1), a, at(i, d), at(i + 1, d), b);
+  }
+  const Index front = s.face(shapes::plane(at(0, 0), {0, -1, 0}), 1),
+              back = s.face(shapes::plane(at(0, d), {0, 1, 0}), 1);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    s.triangle(front, at(0, 0), at(i, 0), at(i + 1, 0));
+    s.triangle(back, at(0, d), at(i + 1, d), at(i, d));
+  }
+  for (const double y : {0.0, d})
+    for (std::size_t i = 0; i < n; ++i) {
+      s.corner(at(i, y));
+      s.line(at(i, y), at(i + 1, y));
+    }
+  for (std::size_t i = 0; i < n; ++i) s.line(at(i, 0), at(i, d));
+  return s;
+}
+
+// A block of 20 x 20 x 10 with a step of the height `step` across its top.
+Shape stepped_block(double step) {
+  return prism({{10, 10 - step}, {10, 10}, {0, 10}, {0, 0}, {20, 0}, {20, 10 - step}}, 20);
+}
+
+// A cylinder with its upper rim chamfered, the points of the two circles staggered.
+Shape chamfered_cylinder(double radius, double height, double chamfer, int n) {
+  Shape s;
+  const Vec3 z{0, 0, 1};
+  const double r = radius - chamfer, h = height - chamfer;
+  const auto low = shapes::circle(radius, 0, n), middle = shapes::circle(radius, h, n);
+  auto high = shapes::circle(r, height, n);
+  for (Vec3& p : high) {
+    const double a = std::atan2(p.y, p.x) + std::numbers::pi / n;
+    p = {r * std::cos(a), r * std::sin(a), height};
+  }
+  high.back() = high.front();
+  const Index wall = s.face({SurfaceKind::cylinder, {}, z, radius, 0, -1}, 1),
+              cone = s.face({SurfaceKind::cone, {0, 0, h + radius}, -z, std::numbers::pi / 4, 0, -1}, 1),
+              floor = s.face(shapes::plane({}, -z), 1), roof = s.face(shapes::plane({0, 0, height}, z), 1);
+  for (int i = 0; i < n; ++i) {
+    s.quad(wall, low[i], low[i + 1], middle[i + 1], middle[i]);
+    s.triangle(cone, middle[i], middle[i + 1], high[i]);
+    s.triangle(cone, high[i], middle[i + 1], high[i + 1]);
+    if (i == 0 || i + 1 == n) continue;
+    s.triangle(floor, low[0], low[i + 1], low[i]);
+    s.triangle(roof, high[0], high[i], high[i + 1]);
+  }
+  s.edge({CurveKind::circle, {}, z, radius, -1}, low);
+  s.edge({CurveKind::circle, {0, 0, h}, z, radius, -1}, middle);
+  s.edge({CurveKind::circle, {0, 0, height}, z, r, -1}, high);
+  return s;
+}
+
+// A box of 10 x 10 x 10 whose front is divided by two lines that come as near as `gap` at the top.
+Shape tiny_edge(double gap) {
+  Shape s;
+  const Vec3 o{0, 0, 0}, x{10, 0, 0}, xz{10, 0, 10}, z{0, 0, 10};
+  const Vec3 low_left{2, 0, 0}, low_right{8, 0, 0}, left{5, 0, 10}, right{5 + gap, 0, 10};
+  const Vec3 y{0, 10, 0}, xy{10, 10, 0}, all{10, 10, 10}, yz{0, 10, 10};
+  const Vec3 forward{0, -1, 0};
+  const auto face = [&](const Vec3& normal, const std::vector<Vec3>& loop) {
+    const Index f = s.face(shapes::plane(loop[0], normal), 1);
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) s.triangle(f, loop[0], loop[i], loop[i + 1]);
+  };
+  face(forward, {o, low_left, left, z});
+  face(forward, {low_left, low_right, right, left});
+  face(forward, {low_right, x, xz, right});
+  face({0, 0, 1}, {yz, z, left, right, xz, all});
+  face({0, 0, -1}, {y, xy, x, low_right, low_left, o});
+  face({-1, 0, 0}, {o, z, yz, y});
+  face({1, 0, 0}, {x, xy, all, xz});
+  face({0, 1, 0}, {y, yz, all, xy});
+  for (const Vec3& p : {o, low_left, low_right, x, xz, right, left, z, y, xy, all, yz}) s.corner(p);
+  const std::vector<Vec3> rim{o, low_left, low_right, x, xz, right, left, z, o};
+  for (std::size_t i = 0; i + 1 < rim.size(); ++i) s.line(rim[i], rim[i + 1]);
+  s.line(low_left, left);
+  s.line(low_right, right);
+  for (const auto& [a, b] :
+       {std::pair{o, y}, {x, xy}, {xz, all}, {z, yz}, {y, xy}, {xy, all}, {all, yz}, {yz, y}})
+    s.line(a, b);
+  return s;
+}
+
+struct Result {
+  Absorbed absorbed;
+  Plc plc;
+  SurfaceMesh mesh;
+  double smallest_angle = 180;
+
+  explicit Result(const Shape& shape, double max_size, double min_size = 0,
+                  std::vector<double> face_size = {}) {
+    check_plc(shape.plc);
+    const Geometry geometry(shape.plc, shape.records);
+    Context context;
+    SizeOptions sizes;
+    sizes.max_size = max_size;
+    sizes.min_size = min_size;
+    sizes.face_size = std::move(face_size);
+    plc = absorb_small_features(shape.plc, geometry, sizes, context, absorbed);
+    check_plc(plc);
+    const SizeField field(plc, geometry, sizes, context);
+    mesh = mesh_surfaces(plc, geometry, field, {}, context);
+    check_surface_mesh(mesh, plc, geometry);
+    for (const auto& [a, b, c] : mesh.triangles)
+      for (const auto& [i, j, k] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
+        const Vec3 u = mesh.points[j] - mesh.points[i], v = mesh.points[k] - mesh.points[i];
+        const double angle = std::atan2(norm(cross(u, v)), dot(u, v));
+        smallest_angle = std::min(smallest_angle, angle * 180 / std::numbers::pi);
+      }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a step far lower than the elements becomes a line") {
+  const Result r(stepped_block(0.01), 4);
+  CHECK(r.absorbed.faces == std::vector<Index>{0});
+  CHECK(r.absorbed.edges.size() == 3);
+  CHECK(r.absorbed.vertices.size() == 2);
+  CHECK(r.smallest_angle > 25);
+  CHECK(r.mesh.triangles.size() < 400);
+}
+
+TEST_CASE("a step that elements can show stays, and so does one with a size of its own or a minimum size") {
+  CHECK_FALSE(Result(stepped_block(0.5), 4).absorbed.any());
+  CHECK_FALSE(Result(stepped_block(0.05), 4, 0, {0.2}).absorbed.any());
+  CHECK_FALSE(Result(stepped_block(0.05), 4, 0.02).absorbed.any());
+  CHECK(Result(stepped_block(0.05), 4).absorbed.any());
+}
+
+TEST_CASE("a step exactly as small as rounding is absorbed") {
+  const Result r(stepped_block(1e-7), 4);
+  CHECK(r.absorbed.faces == std::vector<Index>{0});
+  CHECK(r.smallest_angle > 25);
+}
+
+TEST_CASE("the rim of a thin plate stays") {
+  CHECK_FALSE(Result(shapes::box(20, 20, 0.05), 10).absorbed.any());
+}
+
+TEST_CASE("a narrow ring whose points do not face each other") {
+  const Result r(chamfered_cylinder(10, 20, 0.02, 24), 3);
+  CHECK(r.absorbed.faces == std::vector<Index>{1});
+  CHECK(r.absorbed.edges == std::vector<Index>{2});
+  CHECK(r.smallest_angle > 25);
+}
+
+TEST_CASE("a tiny edge becomes a point") {
+  for (const double gap : {1e-6, 1e-3, 0.02}) {
+    const Result r(tiny_edge(gap), 2);
+    CHECK(r.absorbed.faces.empty());
+    CHECK(r.absorbed.edges.size() == 1);
+    CHECK(r.absorbed.vertices.size() == 1);
+    CHECK(r.smallest_angle > 20);
+    CHECK(r.mesh.triangles.size() < 700);
+  }
+}
