@@ -122,6 +122,21 @@ TEST_CASE("partition: a removed label is found again from the tetrahedra") {
   CHECK(solid_volume(mesh, 2) == doctest::Approx(before[1]).epsilon(0.02));
 }
 
+TEST_CASE("complex: a segment that is an edge of no triangle any more is dropped, the others stay") {
+  const Case c{"two boxes", shapes::two_boxes(), 0.4};
+  const Stages stages(c);
+  BoundaryComplex complex(stages.surface, c.shape.plc.face_solids);
+  const std::size_t before = complex.segments().size();
+  const auto [a, b] = BoundaryComplex::segment_of_key(complex.segments().begin()->first);
+  BoundaryComplex::Fan fan;
+  const int count = complex.triangles_at(a, b, fan);
+  for (int i = 0; i < count; ++i) complex.remove(fan[i]);
+  complex.drop_bare_segments();
+  CHECK_FALSE(complex.is_segment(a, b));
+  CHECK(complex.segments().size() < before);
+  CHECK(complex.segments().size() >= before - 1 - 2 * static_cast<std::size_t>(count));
+}
+
 TEST_CASE("tag_solids: an open boundary is noticed") {
   const Case c{"box", shapes::box(6, 4, 3), 0.6};
   Stages stages(c);
