@@ -14,12 +14,14 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kMostReplaced = 0.01;  // share of triangles that the last resort may replace between solids
 constexpr int kMaxRounds = 60;
-constexpr int kWorseRounds =
-    2;  // rounds with more missing triangles than ever before: splitting does not help
-// Splitting floors, relative to the wanted edge length: below them a constraint counts as unrecoverable.
-constexpr double kSegmentFloor = 0.3, kTriangleFloor = 0.3;
+// Rounds with more missing triangles than ever before, and splits per triangle (and in any case), after which
+// splitting is given up: it does not help where faces cross.
+constexpr int kWorseRounds = 2;
+constexpr Index kMostSplitsShare = 4, kMostSplits = 1000;
+// Splitting floors, relative to the edge length there: below them a constraint counts as unrecoverable.
+constexpr double kSegmentFloor = 0.1, kTriangleFloor = 0.1;
 // Least distance of a new point from all others, relative to the same: what makes the splitting end.
-constexpr double kSpacing = 0.15;
+constexpr double kSpacing = 0.04;
 
 class Recovery {
  public:
@@ -34,13 +36,15 @@ class Recovery {
 
   // Returns the triangles that could not be recovered.
   std::vector<Index> run() {
+    measure_edges();
     label_present();
     report_.missing_at_start = static_cast<Index>(missing_.size());
+    const Index most_splits = std::max(kMostSplits, complex_.slot_count() / kMostSplitsShare);
     std::size_t fewest = missing_.size();
     for (int round = 0, worse = 0; round < kMaxRounds && !missing_.empty(); ++round) {
       worse = missing_.size() > fewest ? worse + 1 : 0;
       fewest = std::min(fewest, missing_.size());
-      if (worse > kWorseRounds) break;
+      if (worse > kWorseRounds || splits() > most_splits) break;
       context_.poll(1 - 1.0 / (round + 2));
       std::vector<Index> work;
       work.swap(missing_);
@@ -50,7 +54,7 @@ class Recovery {
       for (const Index t : work)
         if (is_missing(t) && !flip(t)) later_.push_back(t);
       for (const Index t : later_)
-        if (is_missing(t) && !split(t)) stuck_.push_back(t);
+        if (is_missing(t) && (splits() > most_splits || !split(t))) stuck_.push_back(t);
       later_.clear();
       if (missing_.empty() && !stuck_.empty()) break;
       missing_.insert(missing_.end(), stuck_.begin(), stuck_.end());
@@ -63,9 +67,31 @@ class Recovery {
   }
 
  private:
+  Index splits() const { return report_.segment_splits + report_.triangle_splits; }
   const std::vector<Vec3>& points() const { return tets_.points(); }
   bool is_missing(Index t) const { return complex_.alive(t) && !present_[t]; }
-  double edge_size(const Vec3& p) const { return 0.8 * size_.at(p); }
+  // The mean length of the labelled edges at each point, as the surfaces stage left them.
+  void measure_edges() {
+    edge_at_.assign(points().size(), 0);
+    std::vector<int> count(points().size(), 0);
+    for (Index t = 0; t < complex_.slot_count(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index a = complex_.corners(t)[i], b = complex_.corners(t)[(i + 1) % 3];
+        const double l = distance(points()[a], points()[b]);
+        edge_at_[a] += l, edge_at_[b] += l;
+        ++count[a], ++count[b];
+      }
+    for (std::size_t v = 0; v < count.size(); ++v)
+      if (count[v]) edge_at_[v] /= count[v];
+  }
+
+  // The edge length that splitting goes by: what is wanted, or what narrow places already have.
+  template <class Points>
+  double edge_size(const Vec3& p, const Points& corners) const {
+    double sum = 0;
+    for (const Index v : corners) sum += edge_at_[v];
+    return std::min(0.8 * size_.at(p), sum / static_cast<double>(std::size(corners)));
+  }
 
   // One pass over all faces instead of one search per triangle.
   void label_present() {
@@ -145,14 +171,16 @@ class Recovery {
 
   bool tetrahedron_at_edge(Index a, Index b) const;
 
-  bool split_segment(Index a, Index b) {
+  // At (1 - ratio) a + ratio b; without a ratio where split_ratio says.
+  bool split_segment(Index a, Index b, double ratio = 0) {
     const Vec3 pa = points()[a], pb = points()[b];
     const double l = distance(pa, pb);
-    if (l < kSegmentFloor * edge_size(0.5 * (pa + pb))) return false;
+    const double edge = edge_size(0.5 * (pa + pb), Segment{a, b});
+    if (l < kSegmentFloor * edge) return false;
     Random random(context_.seed, a, b, 1);
-    const double w = split_ratio(a, b, l, random);
+    const double w = ratio > 0 ? ratio : split_ratio(a, b, l, random);
     const Vec3 p = geometry_.project_to_edge(complex_.segment(a, b), (1 - w) * pa + w * pb);
-    const Index v = insert(p, a);
+    const Index v = insert(p, a, edge);
     if (v < 0) return false;
     BoundaryComplex::Fan fan;
     const int n = complex_.triangles_at(a, b, fan);
@@ -179,28 +207,31 @@ class Recovery {
     const Sphere circle = circumcircle(a, b, c);
     const double r = std::sqrt(circle.radius2);
     const Vec3 middle = (1.0 / 3) * (a + b + c);
-    if (r < kTriangleFloor * edge_size(middle)) return false;
+    const double edge = edge_size(middle, q);
+    if (r < kTriangleFloor * edge) return false;
     int apex = 0;
-    double longest = 0;
+    double longest2 = 0;
     for (int i = 0; i < 3; ++i) {
-      const double l = distance(points()[q[(i + 1) % 3]], points()[q[(i + 2) % 3]]);
-      if (l > longest) longest = l, apex = i;
+      const double l2 = norm2(points()[q[(i + 1) % 3]] - points()[q[(i + 2) % 3]]);
+      if (l2 > longest2) longest2 = l2, apex = i;
     }
     const Index u = q[(apex + 1) % 3], v = q[(apex + 2) % 3];
-    const bool obtuse = longest > 1.99 * r * std::sin(1.5);
-    if (obtuse && complex_.is_segment(u, v)) return split_segment(u, v);
+    const Vec3 pu = points()[u], pv = points()[v], top = points()[q[apex]];
+    const bool obtuse = dot(pu - top, pv - top) < 0;
     Random random(context_.seed, q[0], q[1], q[2], 2);
+    const double foot = dot(top - pu, pv - pu) / longest2 + 0.05 * random.symmetric();
+    const double w = std::clamp(foot, 0.2, 0.8);
+    if (obtuse && complex_.is_segment(u, v)) return split_segment(u, v, w);
     const Index face = complex_.face(t);
     Vec3 p = circle.centre + (0.2 * r) * random.in_ball();
-    const double w = 0.5 + 0.1 * random.symmetric();
     if (obtuse)
-      p = (1 - w) * points()[u] + w * points()[v];
+      p = (1 - w) * pu + w * pv;
     else if (!well_inside(p, q, 0.15 * r))
       p = 0.7 * middle + 0.3 * circle.centre;
     p = geometry_.project_to_face(face, p);
     const Segment near = encroached_segment(q, p);
     if (near[0] >= 0) return split_segment(near[0], near[1]);
-    return obtuse ? split_edge(u, v, face, p) : split_inside(t, p);
+    return obtuse ? split_edge(u, v, face, p, edge) : split_inside(t, p, edge);
   }
 
   // A segment round the triangle whose diametral ball holds p: it is split instead (Ruppert 1995), or points
@@ -217,10 +248,10 @@ class Recovery {
     return {-1, -1};
   }
 
-  bool split_inside(Index t, const Vec3& p) {
+  bool split_inside(Index t, const Vec3& p, double edge) {
     const Triangle q = complex_.corners(t);
     const Index face = complex_.face(t);
-    const Index w = insert(p, q[0]);
+    const Index w = insert(p, q[0], edge);
     if (w < 0) return false;
     complex_.set_entity(w, {2, face});
     unlabel(t);
@@ -231,10 +262,10 @@ class Recovery {
     return true;
   }
 
-  bool split_edge(Index a, Index b, Index face, const Vec3& p) {
+  bool split_edge(Index a, Index b, Index face, const Vec3& p, double edge) {
     BoundaryComplex::Fan fan;
     const int n = complex_.triangles_at(a, b, fan);
-    const Index v = insert(p, a);
+    const Index v = insert(p, a, edge);
     if (v < 0) return false;
     complex_.set_entity(v, {2, face});
     split_fan(a, b, v, fan, n);
@@ -290,11 +321,11 @@ class Recovery {
   }
 
   // New Delaunay vertex; labelled triangles whose face vanished become missing.
-  Index insert(const Vec3& p, Index near) {
+  Index insert(const Vec3& p, Index near, double edge) {
     const Index start = tets_.locate(p, tets_.vertex_tet(near));
     if (start < 0) return -1;
     tets_.find_cavity(p, start, false, cavity_);
-    if (cavity_.border.empty() || nearest_distance(p) < kSpacing * edge_size(p)) return -1;
+    if (cavity_.border.empty() || nearest_distance(p) < kSpacing * edge) return -1;
     for (const Index tet : cavity_.tets) {
       if (!tets_.marks(tet) || tets_.is_ghost(tet)) continue;
       const Tet& v = tets_.corners(tet);
@@ -305,6 +336,7 @@ class Recovery {
       }
     }
     const Index v = tets_.insert(p, cavity_);
+    edge_at_.push_back(edge);
     for (const Index t : touched_) {
       const Triangle& q = complex_.corners(t);
       if (find_face(tets_, q[0], q[1], q[2]) >= 0) continue;
@@ -330,7 +362,8 @@ class Recovery {
   const SizeField& size_;
   Context& context_;
   RecoveryReport& report_;
-  std::vector<char> present_;  // per labelled triangle: is it a face of the triangulation?
+  std::vector<double> edge_at_;  // per point
+  std::vector<char> present_;    // per labelled triangle: is it a face of the triangulation?
   std::vector<Index> missing_, later_, stuck_, touched_;
   Cavity cavity_;
 };

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
+
 #include "../surfaces/shapes.h"
 #include "boundary/partition.h"
 #include "surfaces/crossings.h"
@@ -192,4 +194,145 @@ TEST_CASE("find_crossings: proper crossings only") {
   CHECK(find_crossings(p, {{0, 1, 2}, {4, 5, 6}}).empty());      // apart
   CHECK(find_crossings(p, {{0, 1, 2}, {1, 2, 8}}).empty());      // coplanar neighbours
   CHECK(find_crossings(p, {{0, 3, 4}, {0, 1, 2}}).size() == 1);  // through, from a shared corner
+}
+
+namespace {
+
+using Row = std::vector<Index>;
+
+// A box whose top has a strip of width 0.01 between two CAD edges, with points on one of
+// them opposite the middles of the other's parts.
+struct StripBox {
+  Plc plc;
+  GeometryRecords records;
+  SurfaceMesh surface;
+  static constexpr double kWidth = 0.01;
+
+  StripBox() {
+    for (int i = 0; i <= 10; ++i) {
+      xs.push_back(0.1 * i);
+      ys.push_back(i <= 5 ? 0.1 * i : 0.1 * (i - 1) + kWidth);
+      zs.push_back(0.1 * i);
+    }
+    ys.push_back(1 + kWidth);
+    for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
+      const double middle = 0.5 * (ys[j] + ys[j + 1]);
+      loft(top_row(j), top_row(j + 1), middle < 0.5 ? 0 : middle < 0.5 + kWidth ? 1 : 2);
+      loft(row(xs,
+               [&](double x) {
+                 return Vec3{x, ys[j + 1], 0};
+               }),
+           row(xs,
+               [&](double x) {
+                 return Vec3{x, ys[j], 0};
+               }),
+           3);
+    }
+    for (int k = 0; k < 10; ++k) {
+      const double low = zs[k], high = zs[k + 1];
+      for (const int end : {0, 1}) {
+        const auto side = [&](double z) { return row(ys, [&](double y) { return Vec3{1.0 * end, y, z}; }); };
+        const auto wall = [&](double z) {
+          return row(xs, [&](double x) { return Vec3{x, end * (1 + kWidth), z}; });
+        };
+        loft(side(end ? low : high), side(end ? high : low), 4 + end);
+        loft(wall(end ? high : low), wall(end ? low : high), 6 + end);
+      }
+    }
+    plc.face_solids.assign(8, {1, 0});
+    plc.solid_count = 1;
+    plc.triangles = surface.triangles;
+    plc.triangle_face = surface.triangle_face;
+    plc.points = surface.points;
+    records.faces.assign(8, {});
+    add_segments();
+  }
+
+ private:
+  std::vector<double> xs, ys, zs;
+
+  Index point(const Vec3& p) {
+    for (std::size_t i = 0; i < surface.points.size(); ++i)
+      if (distance(surface.points[i], p) < 1e-9) return static_cast<Index>(i);
+    surface.points.push_back(p);
+    return static_cast<Index>(surface.points.size()) - 1;
+  }
+  template <class Place>
+  Row row(const std::vector<double>& values, Place place) {
+    Row out;
+    for (const double value : values) out.push_back(point(place(value)));
+    return out;
+  }
+  Row top_row(std::size_t j) {
+    std::vector<double> values(xs);
+    if (j == 6) {
+      values = {0};
+      for (int i = 0; i < 10; ++i) values.push_back(0.05 + 0.1 * i);
+      values.push_back(1);
+    }
+    return row(values, [&](double x) { return Vec3{x, ys[j], 1}; });
+  }
+  void add(Index a, Index b, Index c, Index face) {
+    surface.triangles.push_back({a, b, c});
+    surface.triangle_face.push_back(face);
+  }
+  // Triangles between two rows, counter-clockwise seen from in front when `to` lies left of `from`.
+  void loft(const Row& from, const Row& to, Index face) {
+    const auto& p = surface.points;
+    for (std::size_t i = 0, j = 0; i + 1 < from.size() || j + 1 < to.size();) {
+      const bool can_i = i + 1 < from.size(), can_j = j + 1 < to.size();
+      if (can_i && (!can_j || norm2(p[from[i + 1]] - p[to[j]]) <= norm2(p[to[j + 1]] - p[from[i]]))) {
+        add(from[i], from[i + 1], to[j], face);
+        ++i;
+      } else {
+        add(from[i], to[j + 1], to[j], face);
+        ++j;
+      }
+    }
+  }
+  // An edge between two triangles of different faces is a segment; its number is that of the pair of faces.
+  void add_segments() {
+    std::map<std::pair<Index, Index>, Index> owner;
+    std::map<std::pair<Index, Index>, Index> edges;
+    surface.point_entity.assign(surface.points.size(), Entity{2, 0});
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index a = surface.triangles[t][i], b = surface.triangles[t][(i + 1) % 3];
+        const Index face = surface.triangle_face[t];
+        const auto [it, is_new] = owner.try_emplace(std::minmax(a, b), face);
+        if (is_new || it->second == face) continue;
+        const auto pair = std::minmax(face, it->second);
+        const Index edge = edges.try_emplace(pair, static_cast<Index>(edges.size())).first->second;
+        surface.segments.push_back({a, b});
+        surface.segment_edge.push_back(edge);
+        for (const Index v : {a, b}) surface.point_entity[v] = {1, edge};
+      }
+    plc.segments = surface.segments;
+    plc.segment_edge = surface.segment_edge;
+    plc.edge_count = static_cast<Index>(edges.size());
+    records.edges.assign(edges.size(), {});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("recovery: very obtuse triangles in a narrow strip are split where they lie") {
+  const StripBox box;
+  const Geometry geometry(box.plc, box.records);
+  Context context;
+  const SizeField size(box.plc, geometry, Stages::options(0.125), context);
+  RecoveryReport report;
+  const auto mesh = recover_boundary(box.surface, box.plc, geometry, size, context, report);
+  check_boundary(mesh);
+  CHECK(report.missing_at_start > 0);
+  CHECK(report.replaced == 0);
+  CHECK(report.segment_splits + report.triangle_splits < 100);
+  CHECK(solid_volume(mesh, 1) == doctest::Approx(1 + StripBox::kWidth).epsilon(1e-9));
+  double area = 0;
+  for (Index t = 0; t < mesh.boundary.slot_count(); ++t) {
+    if (!mesh.boundary.alive(t)) continue;
+    const auto& [a, b, c] = mesh.boundary.corners(t);
+    area += 0.5 * norm(area_vector(mesh.tets.point(a), mesh.tets.point(b), mesh.tets.point(c)));
+  }
+  CHECK(area == doctest::Approx(6 + 4 * StripBox::kWidth).epsilon(1e-9));
 }
