@@ -191,7 +191,7 @@ PROBLEMS = [
     Problem(
         "plate with hole",
         plate_shape,
-        [5.6, 4.0, 2.8, 2.0],
+        [4.0, 2.8, 2.0, 1.4],
         SLICE,
         [(plane(0, SIDE), plate_traction), (plane(1, SIDE), plate_traction)],
         plate_displacement,
@@ -202,7 +202,7 @@ PROBLEMS = [
     Problem(
         "pipe under pressure",
         pipe_shape,
-        [5.6, 4.0, 2.8, 2.0],
+        [4.0, 2.8, 2.0, 1.4],
         SLICE,
         [(bore(INNER), lambda points, normals: -PRESSURE * normals)],
         pipe_displacement,

@@ -58,9 +58,8 @@ def row(kind, name):
     nodes, value = run(kind, name)
     if isinstance(value, str):
         return "| %s | %s | - | no result: %s | - | |" % (name, kind, value)
-    reference = np.atleast_1d(example.reference)
-    known = reference.any()
-    off = 100 * np.abs(np.atleast_1d(value) / reference - 1).max() if known else np.nan
+    reference = np.atleast_1d(example.expected())
+    off = 100 * np.abs(np.atleast_1d(value) / reference - 1).max()
     shown = " ".join("%.5g" % number for number in np.atleast_1d(value))
     source = "%s %s" % (" ".join("%.5g" % number for number in reference), example.source)
     return "| %s | %s | %d | %s | %s | %.2f %% |" % (name, kind, nodes, shown, source, off)

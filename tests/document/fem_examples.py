@@ -33,8 +33,9 @@ def largest_displacement(solution):
     return np.linalg.norm(solution.displacements, axis=1).max()
 
 
-def lowest_frequencies(solution):
-    return np.array(solution.frequencies[:4])
+def upright_frequencies(solution):
+    """Modes 1, 3 and 4; mode 2 is sideways, and how firmly an edge holds a beam then depends on the mesh."""
+    return np.array(solution.frequencies)[[0, 2, 3]]
 
 
 def ovalisation(solution):
@@ -56,6 +57,15 @@ def cantilever():
     length, side, force, young, poisson = 8000.0, 1000.0, 9e6, 210000.0, 0.3
     shear = young / (2 * (1 + poisson))
     return force * length**3 / (3 * young * side**4 / 12) + force * length / (5 / 6 * shear * side**2)
+
+
+def hinged_beam():
+    """Timoshenko's beam: 3 m, 50 mm high, hinged at both ends; one, two and three half waves in Hz."""
+    length, height, young, density, poisson = 3000.0, 50.0, 200000.0, 7.9e-9, 0.3
+    wave, gyration = np.array([1, 2, 3]) * np.pi / length, height**2 / 12
+    rigid = wave**4 * young * gyration / density
+    softer = 1 + wave**2 * gyration * (1 + 2 * (1 + poisson) / (5 / 6))
+    return np.sqrt(rigid / softer) / (2 * np.pi)
 
 
 def own_weight():
@@ -83,6 +93,11 @@ class Example:
     quantity: Callable[[Solution], Any] = largest_displacement
     options: Dict[str, Any] = field(default_factory=dict)
     gmsh_size: float = 0.0  # of the mesh that gave the reference
+    newer: Any = None  # (reference, source) from FreeCAD 1.0 on, where the example has another load
+
+    def expected(self):
+        """The reference for the FreeCAD that runs."""
+        return self.newer[0] if self.newer and FreeCAD.Version()[0] != "0" else self.reference
 
 
 EXAMPLES = {
@@ -90,10 +105,17 @@ EXAMPLES = {
     for example in (
         Example(["ccx_cantilever_faceload"], 500.0, cantilever(), "Timoshenko"),
         Example(["boxanalysis_static"], 1.5, 0.09551, "Gmsh", gmsh_size=0.7),
-        Example(["constraint_contact_solid_solid"], 20.0, 0.02389, "Gmsh", gmsh_size=10.0),
+        Example(
+            ["constraint_contact_solid_solid"],
+            20.0,
+            0.02389,
+            "Gmsh",
+            gmsh_size=10.0,
+            newer=(29.77, "stored mesh"),
+        ),
         Example(["constraint_section_print"], 8.0, 9.825, "Gmsh", gmsh_size=4.0),
         Example(["thermomech_bimetall", "thermomech_bimetal"], 2.5, 5.703, "Gmsh", gmsh_size=1.2),
-        Example(["frequency_beamsimple"], 50.0, 0.0, "Gmsh", lowest_frequencies, gmsh_size=25.0),
+        Example(["frequency_beamsimple"], 50.0, hinged_beam(), "Timoshenko", upright_frequencies),
         Example(["material_multiple_bendingbeam_fiveboxes"], 3.0, 1.0386, "Gmsh", gmsh_size=1.5),
         Example(["constraint_selfweight_cantilever"], 500.0, own_weight(), "Timoshenko"),
         Example(["constraint_tie"], 80.0, -0.2397, "Gmsh", ovalisation, gmsh_size=40.0),
