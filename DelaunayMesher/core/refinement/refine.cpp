@@ -25,6 +25,7 @@ constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
 constexpr double kLargestSurfacePick = 0.5;
 constexpr double kTriangleFloor = 0.5;  // circumradius over wanted edge: smaller triangles are not split
 constexpr double kWorthARound = 0.8;    // share of slivers left by a round above which there is no other
+constexpr double kFewSlivers = 50;      // so few cost next to nothing: all rounds are tried
 constexpr double kSpacing = 0.3;        // least distance of a site from all vertices, over rho
 constexpr double kFarFacet = 4;         // circumradii from which on a site no longer encroaches
 constexpr double kPassable = 0.5;  // angle that a boundary split in place of a sliver may make, over target
@@ -59,8 +60,8 @@ class Refinement {
     for (round_ = 1; round_ <= options_.sliver_rounds; ++round_) {
       collect_slivers();
       report_.slivers += static_cast<std::int64_t>(next_.size());
-      if (next_.empty() || static_cast<double>(next_.size()) > kWorthARound * static_cast<double>(before))
-        break;
+      const auto left = static_cast<double>(next_.size());
+      if (left == 0 || (left > kFewSlivers && left > kWorthARound * static_cast<double>(before))) break;
       before = next_.size();
       drain();
     }
@@ -200,6 +201,7 @@ class Refinement {
     Vec3 best_site;
     bool best_constrained = false;
     int refused = 0;
+    const int patience = round_ <= 1 ? kEncroachedTries : kTries;
     hits_.clear();
     for (int k = 0; k < kTries; ++k) {
       const double f = big ? std::min(kLargestPick, kFirstPick + kPickStep * k)
@@ -212,7 +214,7 @@ class Refinement {
                                      : find_cavity_inside(site, tet, tag);
       if (!found) {
         ++report_.encroached;
-        if (++refused >= kEncroachedTries && best == kRejected) break;
+        if (++refused >= patience && best == kRejected) break;
         continue;
       }
       if (cavity_.border.empty() || ((constrained_ || !big) && is_crowded(cavity_, site))) continue;

@@ -233,10 +233,10 @@ void Octree::Builder::sweep() {
       for (const Index corner : cell.corner) relax(corner, lists_[i]);
   }
   bool changed = true;
-  for (sweep_ = 1; changed && sweep_ <= kMostSweeps; ++sweep_) {
+  for (int round = 1; changed && round <= kMostSweeps; ++round) {
     changed = false;
     for (Index i = 0; i < count; ++i) {
-      Cell& cell = cells_[sweep_ % 2 != 0 ? i : count - 1 - i];
+      Cell& cell = cells_[round % 2 != 0 ? i : count - 1 - i];
       std::uint32_t latest = 0;
       for (const Index corner : cell.corner) latest = std::max(latest, corners_[corner].changed);
       if (latest <= cell.seen) continue;
@@ -245,7 +245,7 @@ void Octree::Builder::sweep() {
         const Index source = corners_[cell.corner[j]].source;
         if (source < 0 || corners_[cell.corner[j]].changed <= seen) continue;
         for (const Index corner : cell.corner)
-          if (relax(corner, source)) corners_[corner].changed = sweep_ + 1, changed = true;
+          if (relax(corner, source)) corners_[corner].changed = ++changes_, changed = true;
       }
     }
     context_.poll(0.5);

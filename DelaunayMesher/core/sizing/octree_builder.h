@@ -34,13 +34,13 @@ class Octree::Builder {
     Place place;
     Range triangles, sources;     // in lists_: those that touch the cell
     std::array<Index, 8> corner;  // in corners_, from the second step on
-    std::uint32_t seen = 0;       // sweep in which it was last relaxed
+    std::uint32_t seen = 0;       // latest change of its corners when it was last relaxed
   };
   struct CornerValue {
     Corner at;
     Index source = -1;
     float value, cap;           // value: the field by its source; cap: by the rest
-    std::uint32_t changed = 1;  // sweep
+    std::uint32_t changed = 1;  // number of the change that made its value
   };
 
   struct Ball {
@@ -79,8 +79,8 @@ class Octree::Builder {
   std::vector<Index> lists_;  // triangles of the PLC and sources, by cell
   std::vector<Ball> balls_;   // around the sources
   std::vector<CornerValue> corners_;
-  std::vector<Index> slots_;  // hash table of corners_ by position, open addressing, -1 = free
-  std::uint32_t sweep_ = 0;
+  std::vector<Index> slots_;   // hash table of corners_ by position, open addressing, -1 = free
+  std::uint32_t changes_ = 1;  // of corner values so far
 };
 
 }  // namespace dm

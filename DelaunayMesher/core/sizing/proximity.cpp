@@ -55,6 +55,7 @@ class Prober {
     visit(p, 0);
   }
   std::vector<Patch> patches;
+  std::vector<ThinWall> walls;
 
  private:
   static double longest(const std::array<Vec3, 3>& p) {
@@ -96,7 +97,10 @@ class Prober {
     ++places_;
     const double range = local_size_ / (kTight * per_width_);  // beyond it, size is local_size_ or more
     const auto& solids = plc_.face_solids[face_];
-    Width w[2] = {width(p, -normal_, range), width(p, normal_, range)};
+    // Walls up to one size thick matter to the prediction.
+    const double inside = std::max(range, local_size_);
+    Width w[2] = {width(p, -normal_, solids[0] > 0 ? inside : range),
+                  width(p, normal_, solids[1] > 0 ? inside : range)};
     if (w[0].t == HUGE_VAL && w[1].t == HUGE_VAL) return HUGE_VAL;
     // A wall may be tight by something farther away than a wall counts by itself.
     for (int side = 0; side < 2; ++side)
@@ -131,6 +135,7 @@ class Prober {
         found ? (even || edge <= 2 * low) && edge <= 16 * local_size_ : edge <= 4 * local_size_;
     if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
       if (!found) clear_.insert(cube(middle));
+      if (low < HUGE_VAL && wall_) walls.push_back({p, width_});
       if (found) patches.push_back({p, low, width_, curvature(middle), wall_, empty_side(plc_, face_)});
       return;
     }
@@ -187,7 +192,8 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
                               const SizeOptions& options, const SizeLimits& limits,
                               const std::vector<double>& triangle_size, Context& context,
                               std::vector<SizeSource>& sources) {
-  ProximityResult result{options.max_size, HUGE_VAL, {}};
+  ProximityResult result;
+  result.finest = options.max_size;
   Prober prober(plc, geometry, boundary, options);
   double others = 0;
   for (std::size_t t = 0; t < plc.triangles.size(); ++t) {
@@ -197,6 +203,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
     const double twice = norm(area_vector(plc.points[a], plc.points[b], plc.points[c]));
     others += 0.5 * twice * kWallElements / (triangle_size[t] * triangle_size[t]);
   }
+  result.walls = std::move(prober.walls);
   const double budget = std::max(kBudget, kBudgetFactor * others);
   const auto least = [&](double from, double factor) {
     if (options.min_size > 0) return from;
@@ -217,7 +224,6 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
   const double crossing = least(limits.crossing, 2);
   for (const Patch& patch : prober.patches) {
     const double size = std::max(patch.size, crossing);
-    if (patch.wall) result.walls.push_back(patch.corner);
     result.finest = std::min(result.finest, size);
     if (size < options.max_size)
       sources.push_back(SizeSource::triangle(patch.corner, size, patch.empty_side));

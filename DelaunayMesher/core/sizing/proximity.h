@@ -16,10 +16,16 @@
 
 namespace dm {
 
+// A triangle with a wall behind it that is at most about one element thick.
+struct ThinWall {
+  std::array<Vec3, 3> corner;
+  double width;  // mm
+};
+
 struct ProximityResult {
   double finest = 0;         // mm, smallest size that walls and gaps get
   double wanted = HUGE_VAL;  // mm, smallest size that their widths ask for; infinity = no wall or gap found
-  std::vector<std::array<Vec3, 3>> walls;  // triangles with a thin wall behind them
+  std::vector<ThinWall> walls;
 };
 
 // Precondition: elements_across > 0.  triangle_size: size on each triangle by the other sources.

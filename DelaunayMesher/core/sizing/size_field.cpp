@@ -14,9 +14,10 @@ namespace dm {
 
 namespace {
 
-// Elements per volume / h^3 and per boundary area / h^2, and, per area / h^2 of each side, what a wall of one
-// or two layers has in addition; fitted to finished meshes.
-constexpr double kPerVolume = 8.47, kPerArea = 2.9, kPerWallArea = 3;
+// Elements per volume / h^3 and per boundary area / h^2, and, per area / h^2 of each side, what a wall
+// thinner than kThickWall * h has in addition for each h that it is thinner; fitted to finished meshes.
+constexpr double kPerVolume = 9.5, kPerArea = 1.45;
+constexpr double kPerWallArea = 5.5, kThickWall = 0.98, kMostPerWallArea = 3.9;
 
 double domain_volume(const Plc& plc) {
   double sixfold = 0;
@@ -129,9 +130,14 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
     inverse_volume = impl_->octree->inverse_volume();
   }
   impl_->predicted = kPerVolume * inverse_volume + kPerArea * inverse_boundary_area(plc);
-  for (const auto& [p, q, r] : proximity.walls)
-    impl_->predicted +=
-        kPerWallArea * inverse_area([&](const Vec3& x) { return at(x); }, p, q, r, impl_->constant ? 0 : 8);
+  for (const ThinWall& wall : proximity.walls) {
+    const auto& [p, q, r] = wall.corner;
+    const double layers = wall.width / at((1.0 / 3) * (p + q + r));
+    const double per_area = std::clamp(kPerWallArea * (kThickWall - layers), 0.0, kMostPerWallArea);
+    if (per_area > 0)
+      impl_->predicted +=
+          per_area * inverse_area([&](const Vec3& x) { return at(x); }, p, q, r, impl_->constant ? 0 : 8);
+  }
 }
 
 double SizeField::inverse_boundary_area(const Plc& plc) const {

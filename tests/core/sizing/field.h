@@ -39,6 +39,6 @@ inline Vec3 random_in(Random& random, const Vec3& a, const Vec3& b) {
 }
 
 // Elements per volume / h^3 and per boundary area / h^2 (docs/sizing.md).
-inline constexpr double kPerVolume = 8.47, kPerArea = 2.9;
+inline constexpr double kPerVolume = 9.5, kPerArea = 1.45;
 
 }  // namespace dm::test

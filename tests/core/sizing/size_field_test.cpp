@@ -211,3 +211,32 @@ TEST_CASE("impossible options are refused") {
   options = plain(std::nan(""));
   CHECK(refused(options));
 }
+
+TEST_CASE("a source spreads past others that reached the same places before it") {
+  test::Shape shape;
+  test::add_box(shape.plc, {0, 0, 0}, {30, 30, 30});
+  shape.records.faces.assign(6, SurfaceRecord{});
+  test::add_cylinder(shape, {10, 10, 3}, 5, 24, 36);
+  test::add_cylinder(shape, {22, 22, 3}, 4, 24, 36);
+  test::finish(shape);
+  SizeOptions options = plain(6.5);
+  options.elements_per_circle = 12;
+  options.growth = 0.2;
+  for (Index edge = 0; edge < 12; ++edge) {
+    options.edge_size.assign(shape.plc.edge_count, HUGE_VAL);
+    options.edge_size[edge] = 0.325;
+    Vec3 a, b;
+    for (std::size_t s = 0; s < shape.plc.segments.size(); ++s)
+      if (shape.plc.segment_edge[s] == edge)
+        a = shape.plc.points[shape.plc.segments[s][0]], b = shape.plc.points[shape.plc.segments[s][1]];
+    Field f(shape, options);
+    Random random(6);
+    double worst = 0;
+    for (int i = 0; i < 5000; ++i) {
+      const Vec3 p = random_in(random, {0, 0, 0}, {30, 30, 30});
+      const double t = std::clamp(dot(p - a, b - a) / norm2(b - a), 0.0, 1.0);
+      worst = std::max(worst, f.field.at(p) / (0.325 + 0.2 * distance(p, (1 - t) * a + t * b)));
+    }
+    CHECK(worst < 1.15);
+  }
+}
