@@ -1,7 +1,6 @@
 #include "boundary/recovery.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "base/random.h"
@@ -11,7 +10,6 @@ namespace dm {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kMostReplaced = 0.01;  // share of triangles that the last resort may replace between solids
 constexpr int kMaxRounds = 60;
 // Rounds with more missing triangles than ever before, and splits per triangle (and in any case), after which
@@ -166,10 +164,8 @@ class Recovery {
     const int n = complex_.triangles_at(a, b, fan);
     for (int i = 0; i < n; ++i)
       if (present_[fan[i]]) return true;
-    return tetrahedron_at_edge(a, b);
+    return dm::has_edge(tets_, a, b);
   }
-
-  bool tetrahedron_at_edge(Index a, Index b) const;
 
   // At (1 - ratio) a + ratio b; without a ratio where split_ratio says.
   bool split_segment(Index a, Index b, double ratio = 0) {
@@ -368,48 +364,6 @@ class Recovery {
   Cavity cavity_;
 };
 
-// Breadth-first search of the star of vertex a for a tetrahedron with the given corners.
-template <class Accept>
-Face search_star(const Triangulation& tets, Index a, Accept accept) {
-  const Index start = tets.vertex_tet(a);
-  if (start < 0) return -1;
-  std::vector<Index> star{start};
-  const auto seen = [&](Index t) { return std::find(star.begin(), star.end(), t) != star.end(); };
-  std::vector<char> large;  // past a few dozen tetrahedra a bitmap beats the linear search
-  const auto visit = [&](Index t) {
-    if (star.size() == 64 && large.empty()) {
-      large.assign(tets.slot_count(), 0);
-      for (const Index s : star) large[s] = 1;
-    }
-    if (large.empty() ? seen(t) : large[t] != 0) return;
-    if (!large.empty()) large[t] = 1;
-    star.push_back(t);
-  };
-  for (std::size_t k = 0; k < star.size(); ++k) {
-    const Index tet = star[k];
-    const Face found = accept(tet);
-    if (found >= 0) return found;
-    const Tet& v = tets.corners(tet);
-    for (int i = 0; i < 4; ++i)
-      if (v[i] != a) visit(tets.neighbour(tet, i) / 4);
-  }
-  return -1;
-}
-
-bool Recovery::tetrahedron_at_edge(Index a, Index b) const {
-  return search_star(tets_, a, [&](Index tet) {
-           const Tet& v = tets_.corners(tet);
-           return std::find(v.begin(), v.end(), b) != v.end() ? 4 * tet : -1;
-         }) >= 0;
-}
-
-// Does the label of face i of tet say that the tetrahedron belongs to its solid?
-bool label_agrees(const LabelledTriangulation& mesh, Index tet, int i) {
-  const Index t = label_of(mesh, tet, i);
-  const bool front = corner_in_front(mesh.tets.corners(tet), i, mesh.boundary.corners(t));
-  return mesh.boundary.solids(t)[front ? 1 : 0] == mesh.tets.tag(tet);
-}
-
 }  // namespace
 
 LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
@@ -430,109 +384,6 @@ LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& pl
                   "faces of different solids overlap or cross each other: " +
                       std::to_string(report.replaced) + " boundary triangles are affected");
   return mesh;
-}
-
-Face find_face(const Triangulation& tets, Index a, Index b, Index c) {
-  return search_star(tets, a, [&](Index tet) -> Face {
-    const Tet& v = tets.corners(tet);
-    int others = 0, apex = -1;
-    for (int i = 0; i < 4; ++i) {
-      if (v[i] == b || v[i] == c)
-        ++others;
-      else if (v[i] != a)
-        apex = i;
-    }
-    return others == 2 ? 4 * tet + apex : -1;
-  });
-}
-
-Index label_of(const LabelledTriangulation& mesh, Index tet, int i) {
-  const Tet& v = mesh.tets.corners(tet);
-  return mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-}
-
-void set_marked_both(Triangulation& tets, Face f, bool on) {
-  tets.set_marked(f / 4, f % 4, on);
-  const Face g = tets.neighbour(f / 4, f % 4);
-  tets.set_marked(g / 4, g % 4, on);
-}
-
-bool corner_in_front(const Tet& v, int i, const Triangle& t) {
-  // Face i of a positively oriented tetrahedron, ordered so that corner i is in front of it.
-  static constexpr int order[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
-  const Index a = v[order[i][0]], b = v[order[i][1]];
-  for (int k = 0; k < 3; ++k)
-    if (t[k] == a) return t[(k + 1) % 3] == b;
-  return false;
-}
-
-bool tag_solids(LabelledTriangulation& mesh) {
-  Triangulation& tets = mesh.tets;
-  constexpr std::uint16_t unknown = 0xffff;
-  for (Index t = 0; t < tets.slot_count(); ++t)
-    if (!tets.is_free(t)) tets.set_tag(t, tets.is_ghost(t) ? 0 : unknown);
-  std::vector<Index> queue;
-  const auto flood = [&](Index start, std::uint16_t solid) {
-    tets.set_tag(start, solid);
-    queue.assign(1, start);
-    while (!queue.empty()) {
-      const Index t = queue.back();
-      queue.pop_back();
-      for (int i = 0; i < 4; ++i) {
-        if (tets.marked(t, i)) continue;
-        const Index n = tets.neighbour(t, i) / 4;
-        if (tets.tag(n) != unknown) continue;
-        tets.set_tag(n, solid);
-        queue.push_back(n);
-      }
-    }
-  };
-  for (Index t = 0; t < tets.slot_count(); ++t)
-    if (!tets.is_free(t) && tets.is_ghost(t)) flood(t, 0);
-  for (Index t = 0; t < tets.slot_count(); ++t) {
-    if (tets.is_free(t) || tets.tag(t) != unknown || !tets.marks(t)) continue;
-    const int i = std::countr_zero(tets.marks(t));
-    const Tet& v = tets.corners(t);
-    const Index label = mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-    const bool front = corner_in_front(v, i, mesh.boundary.corners(label));
-    flood(t, static_cast<std::uint16_t>(mesh.boundary.solids(label)[front ? 1 : 0]));
-  }
-  for (Index t = 0; t < tets.slot_count(); ++t) {
-    if (tets.is_free(t) || tets.is_ghost(t)) continue;
-    for (int i = 0; i < 4; ++i)
-      if (tets.marked(t, i) && !label_agrees(mesh, t, i)) return false;
-  }
-  return true;
-}
-
-void check_boundary(const LabelledTriangulation& mesh) {
-  const Triangulation& tets = mesh.tets;
-  Index marked = 0, alive = 0;
-  for (Index t = 0; t < tets.slot_count(); ++t) {
-    if (tets.is_free(t)) continue;
-    for (int i = 0; i < 4; ++i) {
-      const Face g = tets.neighbour(t, i);
-      if (tets.marked(t, i) != tets.marked(g / 4, g % 4))
-        throw Failure("boundary", "check", "a face is marked on one side only",
-                      tets.point(tets.corners(t)[0]));
-      if (!tets.marked(t, i)) {
-        if (tets.tag(t) != tets.tag(g / 4))
-          throw Failure("boundary", "check", "the solid changes without a boundary",
-                        tets.point(tets.corners(t)[0]));
-        continue;
-      }
-      ++marked;
-      const Tet& v = tets.corners(t);
-      if (mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]) < 0)
-        throw Failure("boundary", "check", "a marked face carries no label", tets.point(v[(i + 1) & 3]));
-      if (!tets.is_ghost(t) && !label_agrees(mesh, t, i))
-        throw Failure("boundary", "check", "a tetrahedron lies in another solid than its label says",
-                      tets.point(v[(i + 1) & 3]));
-    }
-  }
-  for (Index t = 0; t < mesh.boundary.slot_count(); ++t) alive += mesh.boundary.alive(t);
-  if (marked != 2 * alive)
-    throw Failure("boundary", "check", "a labelled triangle is not a face of the triangulation");
 }
 
 }  // namespace dm

@@ -12,17 +12,10 @@
 #pragma once
 
 #include "base/context.h"
-#include "boundary/complex.h"
-#include "kernel/triangulation.h"
+#include "boundary/labelled_triangulation.h"
 #include "sizing/size_field.h"
 
 namespace dm {
-
-// A Delaunay triangulation with the labelled boundary in it; vertex numbers are common to both.
-struct LabelledTriangulation {
-  Triangulation tets;
-  BoundaryComplex boundary;
-};
 
 struct RecoveryReport {
   Index missing_at_start = 0, flips = 0, segment_splits = 0, triangle_splits = 0;
@@ -32,24 +25,5 @@ struct RecoveryReport {
 // Throws Failure("boundary", "repeated_point" | "leak", ...).
 LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
                                        const SizeField& size, Context& context, RecoveryReport& report);
-
-// Face of the triangulation with corners a, b, c, or -1.
-Face find_face(const Triangulation& tets, Index a, Index b, Index c);
-
-// The label of face i of tet, which must be a face between boundary points; -1 when it has none.
-Index label_of(const LabelledTriangulation& mesh, Index tet, int i);
-
-// Marks or unmarks the face `f` on both of its sides.
-void set_marked_both(Triangulation& tets, Face f, bool on);
-
-// Does corner i of tet lie in front of (right-hand normal) its opposite face as `t` orders the corners?
-bool corner_in_front(const Tet& tet, int i, const Triangle& t);
-
-// Gives every tetrahedron the solid it lies in, by flooding from labelled faces.  False when the two sides of
-// the boundary are not separated.
-bool tag_solids(LabelledTriangulation& mesh);
-
-// Every invariant of the postcondition; throws Failure("boundary", ...).
-void check_boundary(const LabelledTriangulation& mesh);
 
 }  // namespace dm

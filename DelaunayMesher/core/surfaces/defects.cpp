@@ -1,6 +1,8 @@
 #include "surfaces/defects.h"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "surfaces/crossings.h"
 
@@ -99,6 +101,29 @@ class NarrowPlaces {
   std::vector<std::vector<Index>> edge_ends_;      // CAD vertices by edge
 };
 
+// Points of a face may fall on the same place where it is folded sharply: the nearest place of the other
+// leaf.
+std::vector<Index> triangles_at_repeated_points(const SurfaceMesh& mesh) {
+  std::vector<Index> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](Index v) {
+    const Vec3& p = mesh.points[v];
+    return std::tie(p.x, p.y, p.z);
+  };
+  std::sort(order.begin(), order.end(), [&](Index v, Index w) { return key(v) < key(w); });
+  std::vector<char> repeated(mesh.points.size(), 0);
+  bool any = false;
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (mesh.points[order[k]] == mesh.points[order[k - 1]])
+      repeated[order[k]] = repeated[order[k - 1]] = 1, any = true;
+  std::vector<Index> found;
+  for (std::size_t t = 0; any && t < mesh.triangles.size(); ++t) {
+    const Triangle& v = mesh.triangles[t];
+    if (repeated[v[0]] || repeated[v[1]] || repeated[v[2]]) found.push_back(static_cast<Index>(t));
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths) {
@@ -108,6 +133,7 @@ std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthF
     crossing.push_back({i, f != g, g});
     crossing.push_back({j, f != g, f});
   }
+  for (const Index t : triangles_at_repeated_points(mesh)) crossing.push_back({t, 0, mesh.triangle_face[t]});
   std::sort(crossing.begin(), crossing.end());
   std::vector<Defect> found;
   for (std::size_t k = 0; k < crossing.size(); ++k) {

@@ -17,7 +17,7 @@ namespace dm {
 namespace {
 
 constexpr int kLastAttempt = 4;  // to sample the curves anew before all their old points are kept
-constexpr int kLastRound = 4;
+constexpr int kLastRound = 6;
 constexpr int kNarrowRounds = 2;  // that look for narrow strips
 constexpr int kCapRounds = 2;  // of smaller lengths where two faces cross, before the tessellation is taken
 constexpr double kKeepRadius = 3;     // round a crossing, over half the wanted length

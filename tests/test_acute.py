@@ -1,0 +1,51 @@
+"""Wedges, spikes and slits: what an acute angle of the input may cost, as properties of a sweep."""
+
+import numpy as np
+import pytest
+
+from DelaunayMesher import mesh, quality
+
+SIZE = 0.05
+
+
+def wedge(angle):
+    """Points and triangles of a block 1 x 1 whose two square faces meet at `angle` degrees."""
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    points = np.array([(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (c, 0, s), (c, 1, s)], float)
+    faces = [(0, 1, 3, 2), (0, 4, 5, 1), (0, 2, 4), (1, 5, 3), (2, 3, 5, 4)]
+    triangles = [(f[0], f[i], f[i + 1]) for f in faces for i in range(1, len(f) - 1)]
+    return points, np.array(triangles)
+
+
+def mesh_wedge(angle):
+    made = mesh(wedge(angle), max_size=SIZE, threads=1)
+    tets = np.asarray(made.tets)
+    return np.asarray(made.points), tets, quality.dihedral_angles(made.points, tets).min(axis=1)
+
+
+def check_wedge(angle):
+    points, tets, angles = mesh_wedge(angle)
+    volume = 0.5 * np.sin(np.radians(angle))
+    assert quality.volumes(points, tets).sum() == pytest.approx(volume, rel=1e-9)
+    assert angles.min() > 0.6 * min(angle, 30)
+    # The strip in which the solid is thinner than half an element decides its own angles; nothing else is bad.
+    thin = 0.5 * SIZE / np.tan(np.radians(angle))
+    bad = angles < 20
+    nearest = points[tets[bad], :].reshape(-1, 4, 3)[:, :, [0, 2]]
+    distance = np.hypot(nearest[:, :, 0], nearest[:, :, 1]).min(axis=1)
+    assert (distance > 1.5 * thin + SIZE).sum() <= 5
+    return len(tets), int(bad.sum())
+
+
+def test_wedge_of_5_degrees():
+    count, bad = check_wedge(5)
+    assert count < 6000
+    assert bad < 0.1 * count
+
+
+@pytest.mark.long
+def test_wedges_from_90_to_1_degree():
+    """Sharper wedges hold less and so have fewer elements: nothing blows up on the way."""
+    counts = [check_wedge(angle)[0] for angle in (90, 75, 60, 45, 30, 20, 15, 10, 7, 5, 3, 2, 1.5, 1)]
+    for wider, sharper in zip(counts, counts[1:]):
+        assert sharper < 1.05 * wider
