@@ -42,6 +42,7 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   auto& s = result.statistics;
   const auto add = [&](const char* name, double value) { s.emplace_back(name, value); };
   add("boundary_missing_at_start", recovery.missing_at_start);
+  add("boundary_layer_points", recovery.layer_points);
   add("boundary_flips", recovery.flips);
   add("boundary_replaced", recovery.replaced);
   add("boundary_splits", recovery.segment_splits + recovery.triangle_splits);

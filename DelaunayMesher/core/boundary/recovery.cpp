@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "boundary/layers.h"
 #include "boundary/partition.h"
 
 namespace dm {
@@ -11,6 +12,7 @@ namespace dm {
 namespace {
 
 constexpr double kMostReplaced = 0.01;  // share of triangles that the last resort may replace between solids
+constexpr int kLayerRounds = 3;
 constexpr int kMaxRounds = 60;
 // Rounds with more missing triangles than ever before, and splits per triangle (and in any case), after which
 // splitting is given up: it does not help where faces cross.
@@ -32,10 +34,12 @@ class Recovery {
         context_(context),
         report_(report) {}
 
-  // Returns the triangles that could not be recovered.
-  std::vector<Index> run() {
+  // missing: the labelled triangles that are no faces yet.  Returns those that could not be recovered.
+  std::vector<Index> run(std::vector<Index> missing) {
     measure_edges();
-    label_present();
+    present_.assign(complex_.slot_count(), 1);
+    missing_ = std::move(missing);
+    for (const Index t : missing_) present_[t] = 0;
     report_.missing_at_start = static_cast<Index>(missing_.size());
     const Index most_splits = std::max(kMostSplits, complex_.slot_count() / kMostSplitsShare);
     std::size_t fewest = missing_.size();
@@ -89,23 +93,6 @@ class Recovery {
     double sum = 0;
     for (const Index v : corners) sum += edge_at_[v];
     return std::min(0.8 * size_.at(p), sum / static_cast<double>(std::size(corners)));
-  }
-
-  // One pass over all faces instead of one search per triangle.
-  void label_present() {
-    present_.assign(complex_.slot_count(), 0);
-    for (Index tet = 0; tet < tets_.slot_count(); ++tet) {
-      if (tets_.is_free(tet) || tets_.is_ghost(tet)) continue;
-      const Tet& v = tets_.corners(tet);
-      for (int i = 0; i < 4; ++i) {
-        const Index t = complex_.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-        if (t < 0) continue;
-        set_marked_both(tets_, 4 * tet + i, true);
-        present_[t] = 1;
-      }
-    }
-    for (Index t = 0; t < complex_.slot_count(); ++t)
-      if (!present_[t]) missing_.push_back(t);
   }
 
   void label(Index t) {
@@ -364,19 +351,51 @@ class Recovery {
   Cavity cavity_;
 };
 
-}  // namespace
-
-LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
-                                       const SizeField& size, Context& context, RecoveryReport& report) {
-  context.begin("boundary");
+LabelledTriangulation triangulate(const SurfaceMesh& surface, const Plc& plc, Context& context) {
   LabelledTriangulation mesh{Triangulation(surface.points, context.threads),
                              BoundaryComplex(surface, plc.face_solids)};
-  context.poll(0.4);
   for (Index v = 0; v < static_cast<Index>(surface.points.size()); ++v)
     if (mesh.tets.vertex_tet(v) < 0)
       throw Failure("boundary", "repeated_point", "two boundary points coincide", surface.points[v],
                     surface.point_entity[v]);
-  const std::vector<Index> missing = Recovery(mesh, geometry, size, context, report).run();
+  context.poll(0.4);
+  return mesh;
+}
+
+// Marks the faces that are labelled triangles; returns the triangles that are no face.
+std::vector<Index> label_faces(LabelledTriangulation& mesh) {
+  std::vector<char> present(mesh.boundary.slot_count(), 0);
+  for (Index tet = 0; tet < mesh.tets.slot_count(); ++tet) {
+    if (mesh.tets.is_free(tet) || mesh.tets.is_ghost(tet)) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Index t = label_of(mesh, tet, i);
+      if (t < 0) continue;
+      set_marked_both(mesh.tets, 4 * tet + i, true);
+      present[t] = 1;
+    }
+  }
+  std::vector<Index> missing;
+  for (Index t = 0; t < mesh.boundary.slot_count(); ++t)
+    if (!present[t]) missing.push_back(t);
+  return missing;
+}
+
+}  // namespace
+
+LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, const Geometry& geometry,
+                                       const SizeField& size, Context& context, RecoveryReport& report) {
+  context.begin("boundary");
+  LabelledTriangulation mesh = triangulate(surface, plc, context);
+  std::vector<Index> missing = label_faces(mesh);
+  std::vector<char> fixed;
+  for (int round = 0; round < kLayerRounds && !missing.empty(); ++round) {
+    const Index matched = match_layers(surface, plc, geometry, size, missing, fixed);
+    if (matched == 0) break;
+    report.layer_points += matched;
+    mesh = triangulate(surface, plc, context);
+    missing = label_faces(mesh);
+  }
+  missing = Recovery(mesh, geometry, size, context, report).run(std::move(missing));
   if (!missing.empty() || !tag_solids(mesh)) report.replaced = partition_solids(mesh, missing);
   // Touching solids whose faces do not match: the caller can mesh them apart.
   if (plc.solid_count > 1 && report.replaced > kMostReplaced * static_cast<double>(surface.triangles.size()))

@@ -19,11 +19,12 @@ namespace dm {
 
 struct RecoveryReport {
   Index missing_at_start = 0, flips = 0, segment_splits = 0, triangle_splits = 0;
-  Index replaced = 0;  // boundary triangles taken from the tetrahedra: the last resort
+  Index layer_points = 0;  // moved or made where sheets of the boundary are close to each other
+  Index replaced = 0;      // boundary triangles taken from the tetrahedra: the last resort
 };
 
 // Throws Failure("boundary", "repeated_point" | "leak", ...).
-LabelledTriangulation recover_boundary(const SurfaceMesh& surface, const Plc& plc, const Geometry& geometry,
+LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, const Geometry& geometry,
                                        const SizeField& size, Context& context, RecoveryReport& report);
 
 }  // namespace dm
