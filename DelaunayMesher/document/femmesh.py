@@ -8,7 +8,7 @@ microseconds per tetrahedron.
 
 import numpy as np
 
-AT_ONCE = 10000  # elements that a group gets in one call
+AT_ONCE = 2000  # elements in one call of FreeCAD: meanwhile no other thread runs, that of the window neither
 TETRAHEDRON = {4: [1, 0, 2, 3], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 
 
@@ -50,15 +50,17 @@ def add_nodes(target, points):
 def add_elements(target, kind, nodes, first):
     """Elements first, first + 1, ... from (n, k) 0-based node numbers; returns their numbers (n,) int64."""
     nodes = np.asarray(nodes, dtype=np.int64) + 1
-    if not len(nodes):
-        return np.zeros(0, dtype=np.int64)
+    numbers = np.arange(first, first + len(nodes))
     add_list = getattr(target, "add%sList" % kind, None)  # FreeCAD 1.0
-    if add_list:
-        return np.asarray(add_list(nodes.ravel().tolist(), [nodes.shape[1]] * len(nodes)), dtype=np.int64)
     add = getattr(target, "add%s" % kind)
-    for number, element in enumerate(nodes.tolist(), first):
-        add(element, number)
-    return np.arange(first, first + len(nodes))
+    for start in range(0, len(nodes), AT_ONCE):
+        block = nodes[start : start + AT_ONCE]
+        if add_list:
+            numbers[start : start + AT_ONCE] = add_list(block.ravel().tolist(), [block.shape[1]] * len(block))
+            continue
+        for number, element in enumerate(block.tolist(), first + start):
+            add(element, number)
+    return numbers
 
 
 def element_groups(mesh, members, aliases):
@@ -83,7 +85,7 @@ def element_groups(mesh, members, aliases):
 
 
 def add_group(target, name, kind, numbers):
-    """One group of element (or node) numbers; in pieces, as FreeCAD's call stops other threads."""
+    """One group of element (or node) numbers."""
     group = target.addGroup(name, kind)
     for start in range(0, len(numbers), AT_ONCE):
         target.addGroupElements(group, numbers[start : start + AT_ONCE].tolist())

@@ -45,7 +45,7 @@ class RefineFaces:
         }
 
     def IsActive(self):
-        return any(selection.HasSubObjects for selection in FreeCADGui.Selection.getSelectionEx())
+        return has_elements()
 
     def Activated(self):
         from . import refine_faces
@@ -67,7 +67,7 @@ class RefineHere:
         }
 
     def IsActive(self):
-        return any(selection.HasSubObjects for selection in FreeCADGui.Selection.getSelectionEx())
+        return has_elements()
 
     def Activated(self):
         from . import refine_faces
@@ -93,6 +93,50 @@ class ShowQuality:
         from . import task_quality
 
         task_quality.open_panel(selected_fem_mesh())
+
+
+class Fix:
+    """FreeCAD's fixed constraint on the selected faces."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("fix"),
+            "MenuText": tr("Fix selected faces"),
+            "ToolTip": tr(
+                "A fixed constraint on the selected faces, edges or vertices. Without an active analysis one "
+                "is made, with a solver, and steel as material"
+            ),
+        }
+
+    def IsActive(self):
+        return has_elements()
+
+    def Activated(self):
+        from . import load_case
+
+        load_case.fix(FreeCADGui.Selection.getSelectionEx())
+
+
+class Load:
+    """FreeCAD's force constraint on the selected faces."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("force"),
+            "MenuText": tr("Force on selected faces"),
+            "ToolTip": tr(
+                "A force on the selected faces, edges or vertices. Without an active analysis one is made, "
+                "with a solver, and steel as material"
+            ),
+        }
+
+    def IsActive(self):
+        return has_elements()
+
+    def Activated(self):
+        from . import load_case
+
+        load_case.load(FreeCADGui.Selection.getSelectionEx())
 
 
 class Solve:
@@ -121,17 +165,26 @@ COMMANDS = {
     "DelaunayMesher_RefineFaces": RefineFaces(),
     "DelaunayMesher_RefineHere": RefineHere(),
     "DelaunayMesher_Quality": ShowQuality(),
+    "DelaunayMesher_Fix": Fix(),
+    "DelaunayMesher_Force": Load(),
     "DelaunayMesher_Solve": Solve(),
 }
 NAMES = list(COMMANDS)
+ANALYSIS = ("DelaunayMesher_Fix", "DelaunayMesher_Force", "DelaunayMesher_Solve")
+MESHING = [name for name in NAMES if name not in ANALYSIS]
 WITH_SHAPE = ("Part::Feature", "App::Part")
-IN_FEM = [name for name in NAMES if name != "DelaunayMesher_Solve"]  # FEM has its own
+IN_FEM = MESHING  # FEM has its own for the rest
 
 
 def register():
     """Make the commands known to FreeCAD."""
     for name, command in COMMANDS.items():
         FreeCADGui.addCommand(name, command)
+
+
+def has_elements():
+    """Whether faces, edges or vertices are selected."""
+    return any(selection.HasSubObjects for selection in FreeCADGui.Selection.getSelectionEx())
 
 
 def selected_objects():

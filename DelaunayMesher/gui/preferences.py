@@ -6,6 +6,7 @@ Only what FreeCAD's start needs is imported at the top.
 import FreeCAD
 
 PATH = "User parameter:BaseApp/Preferences/Mod/DelaunayMesher"
+WINDOW_DEFAULTS = {"order": 2}  # as FreeCAD's other meshers: straight elements are too stiff for stresses
 
 
 def group():
@@ -26,18 +27,23 @@ def stored_value(option):
 
     text = group().GetString(option.property_name, "")
     if not text:
-        return option.default
+        return default(option)
     if option.kind == "bool":
         return text == "True"
     try:
         return option.check(float(text))
     except (InputError, ValueError):
-        return option.default
+        return default(option)
+
+
+def default(option):
+    """What holds without a preference."""
+    return WINDOW_DEFAULTS.get(option.name, option.default)
 
 
 def store_value(option, value):
     """Keep a preference; the default is not written down."""
-    if value == option.default:
+    if value == default(option):
         group().RemString(option.property_name)
     else:
         group().SetString(option.property_name, repr(value))

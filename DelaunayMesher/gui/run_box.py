@@ -137,6 +137,12 @@ class RunBox(QtGui.QWidget):
         self.status.setText(tr("Not solved") if solving else tr("Failed; the old mesh was kept"))
         self.write(str(error), BAD)
 
+    def take_over(self):
+        """FreeCAD is going to copy and draw the mesh: the window stands still meanwhile."""
+        self.bar.setValue(self.bar.maximum())
+        self.status.setText(tr("FreeCAD takes the mesh over ..."))
+        self.status.repaint()
+
     def succeed(self, job, report):
         """The run ended with a mesh."""
         self.idle()

@@ -124,6 +124,7 @@ class MeshPanel:
             self.shown = job.shown
             self.run_box.show_solution(job, *extremes(result))
         else:
+            self.run_box.take_over()
             job.store(target)
             self.run_box.succeed(job, mesh_object.stored_report(target))
 

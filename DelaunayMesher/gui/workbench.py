@@ -18,9 +18,9 @@ class DelaunayMesherWorkbench(FreeCADGui.Workbench):
 
     def Initialize(self):
         """Called when the workbench is opened for the first time."""
-        self.appendToolbar(tr("Delaunay Mesher"), commands.NAMES)
+        self.appendToolbar(tr("Delaunay Mesher"), commands.MESHING)
         self.appendMenu(tr("&Delaunay Mesher"), commands.NAMES)
-        self.appendToolbar(tr("Analysis"), self.fem_commands())
+        self.appendToolbar(tr("Analysis"), [*self.fem_commands(), *commands.ANALYSIS])
 
     def fem_commands(self):
         """Commands of FreeCAD's FEM workbench that are there; none where that workbench does not load."""
@@ -31,7 +31,7 @@ class DelaunayMesherWorkbench(FreeCADGui.Workbench):
             FreeCAD.Console.PrintWarning("Delaunay Mesher: the FEM workbench does not load: %s\n" % error)
             return []
 
-        wanted = ["FEM_Analysis", "FEM_MaterialSolid", "FEM_ConstraintFixed", "FEM_ConstraintForce"]
+        wanted = ["FEM_Analysis", "FEM_MaterialSolid"]
         known = FreeCADGui.listCommands()
         return [name for name in wanted if name in known]
 

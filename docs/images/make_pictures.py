@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/gui.md again: drives FreeCAD's window on a display of its own.
+"""Makes the pictures of docs/gui.md and docs/tutorial.md again, in FreeCAD's window on a display of its own.
 
 python3 docs/images/make_pictures.py        needs FreeCAD and xvfb
 """
@@ -14,21 +14,23 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "gui"))
 
 import window  # noqa: E402
 
-PREFIX = "gui_"
+SCRIPTS = ("gui", "tutorial")  # <name>_in_window.py makes <name>_*.png
 
 
-def main():
+def make(name):
+    """Run one of the scripts and take its pictures."""
     with tempfile.TemporaryDirectory() as folder:
         home, output = os.path.join(folder, "home"), os.path.join(folder, "output")
         os.makedirs(output)
-        printed = window.run_in_window(os.path.join(HERE, "in_window.py"), home, output)
+        printed = window.run_in_window(os.path.join(HERE, name + "_in_window.py"), home, output)
         if "PICTURES OK" not in printed:
             sys.exit(printed[-3000:])
-        for name in sorted(os.listdir(output)):
-            if name.endswith(".png"):
-                shutil.copy(os.path.join(output, name), os.path.join(HERE, PREFIX + name))
-                print(PREFIX + name, os.path.getsize(os.path.join(output, name)) // 1000, "kB")
+        for picture in sorted(os.listdir(output)):
+            if picture.endswith(".png"):
+                shutil.copy(os.path.join(output, picture), os.path.join(HERE, name + "_" + picture))
+                print(name + "_" + picture, os.path.getsize(os.path.join(output, picture)) // 1000, "kB")
 
 
 if __name__ == "__main__":
-    main()
+    for chosen in sys.argv[1:] or SCRIPTS:
+        make(chosen)

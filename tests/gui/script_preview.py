@@ -70,20 +70,20 @@ def preferences(part):
     page = PreferencesPage()
     page.loadSettings()
     fields = {field.option.name: field for field in page.fields}
-    assert fields["order"].value() == 1
-    fields["order"].set(2)
+    assert fields["order"].value() == 2
+    fields["order"].set(1)
     fields["growth"].set(0.5)
     page.saveSettings()
     drive.select(part)
     FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
     wait(0.3)
     target = drive.panel().target
-    assert target.ElementOrder == "2nd" and abs(target.Growth - 0.5) < 1e-9
+    assert target.ElementOrder == "1st" and abs(target.Growth - 0.5) < 1e-9
     drive.panel().reject()
     wait(0.2)
     page.loadSettings()
-    assert fields["order"].value() == 2
-    fields["order"].set(1)
+    assert fields["order"].value() == 1
+    fields["order"].set(2)
     fields["growth"].set(0.25)
     page.saveSettings()
 

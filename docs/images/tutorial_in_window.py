@@ -1,0 +1,106 @@
+"""Runs in FreeCAD's window (see make_pictures.py): the steps of docs/tutorial.md, one picture each."""
+
+import os
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(ROOT, "tests", "gui"), os.path.dirname(os.path.abspath(__file__))]
+
+import drive  # noqa: E402
+import FreeCAD  # noqa: E402
+import FreeCADGui  # noqa: E402
+from drive import say, wait, wait_until  # noqa: E402
+from PySide import QtGui  # noqa: E402
+from small_picture import picture  # noqa: E402
+
+FORCE = 8000.0  # N
+
+
+def face_where(part, wanted):
+    """Name of the first face whose bounding box is as wanted."""
+    return next("Face%d" % i for i, f in enumerate(part.Shape.Faces, 1) if wanted(f.BoundBox))
+
+
+def click(part, element):
+    """As a click on the part in the view: the element is selected."""
+    drive.select(part, element)
+    wait(0.2)
+
+
+def fix_the_foot(part):
+    view = FreeCADGui.ActiveDocument.ActiveView
+    view.viewBottom()
+    view.fitAll()
+    click(part, face_where(part, lambda box: box.ZMax < 1e-6))
+    picture("1_foot")
+    FreeCADGui.runCommand("DelaunayMesher_Fix")
+    wait(0.3)
+
+
+def pull_at_the_bore(part):
+    drive.view_all()
+    click(part, face_where(part, lambda box: abs(box.ZLength - 26) < 1e-6 and box.XLength > 20))
+    picture("2_bore")
+    FreeCADGui.runCommand("DelaunayMesher_Force")
+    wait(0.5)
+    force = FreeCADGui.ActiveDocument.getInEdit().Object
+    field = next(box for box in spin_boxes() if box.objectName() == "spinForce")
+    field.setProperty("rawValue", FORCE)
+    wait(0.2)
+    picture("3_force")
+    button(QtGui.QDialogButtonBox.Ok).click()
+    wait(0.5)
+    say(force.Force, "left in edit:", FreeCADGui.ActiveDocument.getInEdit())
+
+
+def spin_boxes():
+    """The fields of the open task panel."""
+    boxes = FreeCADGui.getMainWindow().findChildren(QtGui.QAbstractSpinBox)
+    return [box for box in boxes if box.isVisible()]
+
+
+def button(kind):
+    """A button of the open task panel."""
+    for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+        if box.isVisible() and box.button(kind):
+            return box.button(kind)
+    raise AssertionError("no such button")
+
+
+def mesh_and_solve(part):
+    drive.select(part)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.5)
+    panel = drive.panel()
+    picture("4_mesh")
+    panel.run_box.solve_button.click()
+    wait_until(lambda: not panel.running)
+    say(panel.run_box.log.toPlainText())
+    assert panel.run_box.status.text() == "Solved"
+    drive.view_all()
+    bring_to_view(panel.run_box)
+    picture("5_stress")
+    return panel
+
+
+def bring_to_view(box):
+    """Scroll the task panel down to the figures."""
+    for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(box):
+            area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
+    wait(0.2)
+
+
+def main():
+    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
+    wait(0.5)
+    document = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
+    part = document.getObject("Bracket")
+    part.ViewObject.show()
+    drive.view_all()
+    fix_the_foot(part)
+    pull_at_the_bore(part)
+    mesh_and_solve(part)
+
+
+drive.start(main, "PICTURES")
