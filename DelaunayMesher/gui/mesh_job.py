@@ -5,11 +5,9 @@ window; between, the thread touches copies only.  The core runs without Python's
 alive.  The panel asks for `stage`, `fraction` and `finished` now and then, so that no signal crosses threads.
 """
 
-import sys
 import threading
 import time
 import traceback
-from contextlib import contextmanager
 
 import FreeCAD
 from PySide import QtCore
@@ -21,7 +19,6 @@ from ..progress import Progress
 from .texts import tr
 
 LONGEST_STOP = 5.0  # seconds that the end of FreeCAD waits for a thread
-TURN = 0.0005  # seconds
 unfinished = []
 
 
@@ -38,17 +35,6 @@ def stop_all():
         job.cancel()
     for job in unfinished:
         job.thread.join(LONGEST_STOP)
-
-
-@contextmanager
-def short_turns():
-    """Python's lock changes hands more often, so that the window is not slowed down by work in Python."""
-    before = sys.getswitchinterval()
-    sys.setswitchinterval(TURN)
-    try:
-        yield
-    finally:
-        sys.setswitchinterval(before)
 
 
 class MeshJob:
@@ -90,8 +76,7 @@ class MeshJob:
             mesh.warnings[:0] = self.warnings
             self.proceed("write", 0.0)
             start = time.monotonic()
-            with short_turns():
-                filled = fem_mesh(mesh, self.groups)
+            filled = fem_mesh(mesh, self.groups)
             taken = time.monotonic() - start
             mesh.seconds = {**mesh.seconds, "write": taken}
             mesh.total_seconds += taken

@@ -20,12 +20,44 @@
       <translation>Kleinere Elemente an den gewählten Flächen, Kanten oder Ecken eines Teils, das ein Netzobjekt hat</translation>
     </message>
     <message>
+      <source>Refine here</source>
+      <translation>Hier verfeinern</translation>
+    </message>
+    <message>
+      <source>Smaller elements inside a sphere, box or cylinder round the selected vertex, or where the part was clicked</source>
+      <translation>Kleinere Elemente in einer Kugel, einem Quader oder einem Zylinder um die gewählte Ecke oder die angeklickte Stelle des Teils</translation>
+    </message>
+    <message>
       <source>Mesh quality</source>
       <translation>Netzqualität</translation>
     </message>
     <message>
       <source>Distribution of the dihedral angles and the worst elements of the selected mesh</source>
       <translation>Verteilung der Flächenwinkel und die schlechtesten Elemente des gewählten Netzes</translation>
+    </message>
+    <message>
+      <source>Fix selected faces</source>
+      <translation>Gewählte Flächen festhalten</translation>
+    </message>
+    <message>
+      <source>A fixed constraint on the selected faces, edges or vertices. Without an active analysis one is made, with a solver, and steel as material</source>
+      <translation>Feste Einspannung der gewählten Flächen, Kanten oder Ecken. Ohne aktive Analyse wird eine angelegt, mit Löser und Stahl als Werkstoff</translation>
+    </message>
+    <message>
+      <source>Force on selected faces</source>
+      <translation>Kraft auf gewählte Flächen</translation>
+    </message>
+    <message>
+      <source>A force on the selected faces, edges or vertices. Without an active analysis one is made, with a solver, and steel as material</source>
+      <translation>Kraft auf die gewählten Flächen, Kanten oder Ecken. Ohne aktive Analyse wird eine angelegt, mit Löser und Stahl als Werkstoff</translation>
+    </message>
+    <message>
+      <source>Solve</source>
+      <translation>Berechnen</translation>
+    </message>
+    <message>
+      <source>Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh yet</source>
+      <translation>Die Analyse mit CalculiX berechnen und die Spannungen zeigen; vernetzt zuerst, wenn es noch kein Netz gibt</translation>
     </message>
     <message>
       <source>%.4g to %.4g: %d elements</source>
@@ -44,8 +76,8 @@
       <translation>Unter Debian in einem Terminal ausführen, danach FreeCAD neu starten:</translation>
     </message>
     <message>
-      <source>Elsewhere, take the wheel for this Python and this system, and unpack it into the workbench:</source>
-      <translation>Anderswo das Wheel für dieses Python und dieses System in den Arbeitsbereich entpacken:</translation>
+      <source>Elsewhere, install the wheel for this Python and this system into a folder beside the workbench:</source>
+      <translation>Sonst das Wheel für dieses Python und dieses System in einen Ordner neben dem Arbeitsbereich installieren:</translation>
     </message>
     <message>
       <source>This FreeCAD uses Python %s on %s %s; the part has to be made for it.</source>
@@ -54,6 +86,22 @@
     <message>
       <source>Details: %s</source>
       <translation>Einzelheiten: %s</translation>
+    </message>
+    <message>
+      <source>Fixed faces</source>
+      <translation>Festgehaltene Flächen</translation>
+    </message>
+    <message>
+      <source>Force on faces</source>
+      <translation>Kraft auf Flächen</translation>
+    </message>
+    <message>
+      <source>Steel (assumed)</source>
+      <translation>Stahl (angenommen)</translation>
+    </message>
+    <message>
+      <source>Select faces, edges or vertices of one part.</source>
+      <translation>Wählen Sie Flächen, Kanten oder Ecken eines einzigen Teils.</translation>
     </message>
     <message>
       <source>Smallest dihedral angle</source>
@@ -74,6 +122,10 @@
     <message>
       <source>Aspect ratio</source>
       <translation>Seitenverhältnis</translation>
+    </message>
+    <message>
+      <source>Delaunay mesh run</source>
+      <translation>Delaunay-Vernetzung</translation>
     </message>
     <message>
       <source>First (4 nodes)</source>
@@ -104,12 +156,12 @@
       <translation>Vorgaben für neue Netze</translation>
     </message>
     <message>
-      <source>Mesh refinement</source>
-      <translation>Netzverfeinerung</translation>
+      <source>Size region</source>
+      <translation>Größenbereich</translation>
     </message>
     <message>
-      <source>Select faces, edges or vertices of one part.</source>
-      <translation>Wählen Sie Flächen, Kanten oder Ecken eines einzigen Teils.</translation>
+      <source>Mesh refinement</source>
+      <translation>Netzverfeinerung</translation>
     </message>
     <message>
       <source>This part has no mesh object yet. Use 'Mesh this solid' first.</source>
@@ -164,6 +216,10 @@
       <translation>Qualitätswerte</translation>
     </message>
     <message>
+      <source>CalculiX</source>
+      <translation>CalculiX</translation>
+    </message>
+    <message>
       <source>Run</source>
       <translation>Lauf</translation>
     </message>
@@ -180,6 +236,14 @@
       <translation>Netzqualität ...</translation>
     </message>
     <message>
+      <source>Results ...</source>
+      <translation>Ergebnisse ...</translation>
+    </message>
+    <message>
+      <source>Close this panel and open FreeCAD's own for the results</source>
+      <translation>Dieses Fenster schließen und das von FreeCAD für die Ergebnisse öffnen</translation>
+    </message>
+    <message>
       <source>Mesh</source>
       <translation>Vernetzen</translation>
     </message>
@@ -188,12 +252,16 @@
       <translation>Abbrechen</translation>
     </message>
     <message>
-      <source>Failed; the old mesh was kept</source>
-      <translation>Fehlgeschlagen; das alte Netz bleibt</translation>
+      <source>FreeCAD takes the mesh over ...</source>
+      <translation>FreeCAD übernimmt das Netz ...</translation>
     </message>
     <message>
       <source>Done</source>
       <translation>Fertig</translation>
+    </message>
+    <message>
+      <source>Solved</source>
+      <translation>Berechnet</translation>
     </message>
     <message>
       <source>%s elements below %g°</source>
@@ -216,16 +284,32 @@
       <translation>Wird abgebrochen ...</translation>
     </message>
     <message>
-      <source>Cancelled; the old mesh was kept</source>
-      <translation>Abgebrochen; das alte Netz bleibt</translation>
-    </message>
-    <message>
       <source>Cancelled</source>
       <translation>Abgebrochen</translation>
     </message>
     <message>
+      <source>Not solved</source>
+      <translation>Nicht berechnet</translation>
+    </message>
+    <message>
+      <source>Failed; the old mesh was kept</source>
+      <translation>Fehlgeschlagen; das alte Netz bleibt</translation>
+    </message>
+    <message>
+      <source>Largest displacement %.4g mm</source>
+      <translation>Größte Verschiebung %.4g mm</translation>
+    </message>
+    <message>
+      <source>Largest von Mises stress %.4g MPa (red)</source>
+      <translation>Größte Vergleichsspannung (von Mises) %.4g MPa (rot)</translation>
+    </message>
+    <message>
       <source>Dihedral angles &lt;b&gt;%.1f°&lt;/b&gt; to &lt;b&gt;%.1f°&lt;/b&gt;, </source>
       <translation>Flächenwinkel &lt;b&gt;%.1f°&lt;/b&gt; bis &lt;b&gt;%.1f°&lt;/b&gt;, </translation>
+    </message>
+    <message>
+      <source>Cancelled; the old mesh was kept</source>
+      <translation>Abgebrochen; das alte Netz bleibt</translation>
     </message>
     <message>
       <source>Computing the sizes ...</source>
@@ -234,6 +318,10 @@
     <message>
       <source>About %s tetrahedra</source>
       <translation>Etwa %s Tetraeder</translation>
+    </message>
+    <message>
+      <source>Results of CalculiX</source>
+      <translation>Ergebnisse von CalculiX</translation>
     </message>
     <message>
       <source>Delaunay mesh</source>
@@ -360,6 +448,54 @@
       <translation>innen</translation>
     </message>
     <message>
+      <source>Sphere</source>
+      <translation>Kugel</translation>
+    </message>
+    <message>
+      <source>Box</source>
+      <translation>Quader</translation>
+    </message>
+    <message>
+      <source>Cylinder</source>
+      <translation>Zylinder</translation>
+    </message>
+    <message>
+      <source>Centre</source>
+      <translation>Mittelpunkt</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Radius</translation>
+    </message>
+    <message>
+      <source>Corner</source>
+      <translation>Ecke</translation>
+    </message>
+    <message>
+      <source>Opposite corner</source>
+      <translation>Gegenüberliegende Ecke</translation>
+    </message>
+    <message>
+      <source>Start of the axis</source>
+      <translation>Anfang der Achse</translation>
+    </message>
+    <message>
+      <source>End of the axis</source>
+      <translation>Ende der Achse</translation>
+    </message>
+    <message>
+      <source>Size:</source>
+      <translation>Größe:</translation>
+    </message>
+    <message>
+      <source>Transition:</source>
+      <translation>Übergang:</translation>
+    </message>
+    <message>
+      <source>Kind:</source>
+      <translation>Art:</translation>
+    </message>
+    <message>
       <source>These objects refer to the mesh and would lose it:</source>
       <translation>Diese Objekte beziehen sich auf das Netz und würden es verlieren:</translation>
     </message>
@@ -478,6 +614,30 @@
     <message>
       <source>Refuse to start when more tetrahedra are to be expected; 0: as many as fit into memory</source>
       <translation>Nicht beginnen, wenn mehr Tetraeder zu erwarten sind; 0: so viele, wie in den Speicher passen</translation>
+    </message>
+    <message>
+      <source>Where the size holds: inside a sphere, a box or a cylinder</source>
+      <translation>Wo die Größe gilt: in einer Kugel, einem Quader oder einem Zylinder</translation>
+    </message>
+    <message>
+      <source>Centre of the sphere, corner of the box, start of the axis</source>
+      <translation>Mittelpunkt der Kugel, Ecke des Quaders, Anfang der Achse</translation>
+    </message>
+    <message>
+      <source>Opposite corner of the box, end of the axis</source>
+      <translation>Gegenüberliegende Ecke des Quaders, Ende der Achse</translation>
+    </message>
+    <message>
+      <source>Radius of the sphere or cylinder</source>
+      <translation>Radius der Kugel oder des Zylinders</translation>
+    </message>
+    <message>
+      <source>Largest edge length of the elements inside</source>
+      <translation>Größte Kantenlänge der Elemente darin</translation>
+    </message>
+    <message>
+      <source>Length outside over which the size grows to the one around; 0: by the growth rate of the mesh</source>
+      <translation>Länge, über die die Größe außerhalb bis zu der der Umgebung wächst; 0: mit der Wachstumsrate des Netzes</translation>
     </message>
   </context>
 </TS>
