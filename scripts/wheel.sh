@@ -15,7 +15,7 @@ if ! "$PYTHON" -c 'import ensurepip, venv' 2>/dev/null && [ "$(id -u)" -eq 0 ]; 
 fi
 
 rm -rf build/wheels
-"$PYTHON" -m pip wheel -q --disable-pip-version-check --root-user-action=ignore --no-deps -w build/wheels .
+"$PYTHON" -m pip wheel -q --disable-pip-version-check --no-deps -w build/wheels .
 wheel=$(ls build/wheels/*.whl)
 
 # The sources of the core stay at home, licence and compiled part must be there.
