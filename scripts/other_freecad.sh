@@ -117,7 +117,10 @@ main() {
     exit 3
   fi
   ls -d build/nanobind-* >/dev/null || { echo "other_freecad.sh: run scripts/setup.sh first" >&2; exit 3; }
-  command -v debootstrap >/dev/null || apt-get install -q -y --no-install-recommends debootstrap
+  if ! command -v debootstrap >/dev/null; then
+    apt-get update -q
+    apt-get install -q -y --no-install-recommends debootstrap
+  fi
   declare -A making
   local suite status=0
   for suite in $SUITES; do

@@ -13,6 +13,7 @@ import FreeCADGui
 from drive import say, wait
 from PySide import QtCore, QtGui
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 LONGEST_START = 0.25  # seconds; some 0.02 on a machine that does nothing else
 
 
@@ -119,6 +120,19 @@ def preferences_dialog():
     assert found
 
 
+def package_is_valid():
+    """FreeCAD's Addon Manager finds in package.xml what is there."""
+    from DelaunayMesher import __version__
+
+    metadata = FreeCAD.Metadata(os.path.join(ROOT, "package.xml"))
+    workbench = metadata.Content["workbench"][0]
+    say(metadata.Name, metadata.Version, workbench.Classname)
+    assert metadata.Version == __version__
+    assert workbench.Classname in FreeCADGui.listWorkbenches()
+    for name in (metadata.Icon, workbench.Icon, metadata.License[0]["file"]):
+        assert os.path.isfile(os.path.join(ROOT, name)), name
+
+
 def main():
     start_is_quick()
     FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
@@ -127,6 +141,7 @@ def main():
     nothing_to_mesh()
     narrow_panel()
     preferences_dialog()
+    package_is_valid()
 
 
 drive.start(main, "START")
