@@ -15,6 +15,7 @@ if ! "$PYTHON" -c 'import ensurepip, venv' 2>/dev/null && [ "$(id -u)" -eq 0 ]; 
   apt-get install -q -y --no-install-recommends python3-venv
 fi
 
+if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 rm -rf build/wheels
 "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-deps -w build/wheels .
 wheel=$(ls build/wheels/*.whl)
