@@ -28,7 +28,7 @@ def check_wedge(angle):
     volume = 0.5 * np.sin(np.radians(angle))
     assert quality.volumes(points, tets).sum() == pytest.approx(volume, rel=1e-9)
     assert angles.min() > 0.6 * min(angle, 30)
-    # The strip in which the solid is thinner than half an element decides its own angles; nothing else is bad.
+    # The strip in which the solid is thinner than half an element decides its angles; nothing else is bad.
     thin = 0.5 * SIZE / np.tan(np.radians(angle))
     bad = angles < 20
     nearest = points[tets[bad], :].reshape(-1, 4, 3)[:, :, [0, 2]]
