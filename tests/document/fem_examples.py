@@ -123,7 +123,7 @@ EXAMPLES = {
         Example(
             ["material_nl_platewithhole"],
             20.0,
-            1.742,
+            1.732,
             "20-node bricks",
             options={"regions": [Region.box((-60, -100, 0), (60, 100, 10), 7.0)]},
         ),
