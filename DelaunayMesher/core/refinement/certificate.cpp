@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "base/tet_geometry.h"
+#include "boundary/complex.h"
 
 namespace dm {
 
@@ -19,15 +20,12 @@ double angle_between(const Vec3& a, const Vec3& b) {
 // edges.
 std::vector<char> sharp_points(const VolumeMesh& mesh) {
   std::vector<char> sharp(mesh.points.size(), 0);
-  const auto key = [](Index a, Index b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
-  };
   std::unordered_map<std::uint64_t, std::vector<Vec3>> wings;  // per segment, directions into its triangles
-  for (const auto& [a, b] : mesh.segments) wings[key(a, b)];
+  for (const auto& [a, b] : mesh.segments) wings[BoundaryComplex::key(a, b)];
   for (const Triangle& t : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
       const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
-      const auto it = wings.find(key(a, b));
+      const auto it = wings.find(BoundaryComplex::key(a, b));
       if (it == wings.end()) continue;
       const Vec3 axis = normalized(mesh.points[b] - mesh.points[a]);
       const Vec3 w = mesh.points[c] - mesh.points[a];
@@ -40,7 +38,7 @@ std::vector<char> sharp_points(const VolumeMesh& mesh) {
     }
   }
   for (const auto& [a, b] : mesh.segments) {
-    const auto& w = wings[key(a, b)];
+    const auto& w = wings[BoundaryComplex::key(a, b)];
     for (std::size_t i = 0; i < w.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (angle_between(w[i], w[j]) < kAcuteAngle) sharp[a] = sharp[b] = 1;

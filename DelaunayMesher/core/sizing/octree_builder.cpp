@@ -12,6 +12,7 @@ constexpr double kGain = 0.01;  // a source must lower a corner's value by this 
 constexpr int kMostSweeps = 12;
 constexpr std::size_t kMaxLeaves = 4'000'000;
 constexpr int kTableLevel = 5;
+constexpr double kContinuedWithin = 1.75 * kCellPerSource;  // sizes: the diagonal of a cell across a source
 constexpr double kLeastContinued = 0.7;  // of the size at the boundary, for the values outside
 
 std::size_t slot_of(const std::array<std::uint32_t, 3>& c, std::size_t mask) {
@@ -291,8 +292,11 @@ std::vector<float> Octree::Builder::corner_values() const {
     if (c.source >= 0 && field_.sources[c.source].empty_side != 0 && place[i] != Place::inside) {
       const SizeSource& s = field_.sources[c.source];
       const Vec3 p = point(c.at);
-      const bool outside =
-          place[i] == Place::outside || boundary_.nearest(p, distance(p, s.nearest(p))).solid == 0;
+      // Only round the cells across the source itself: farther on it says nothing about this place's own
+      // side.
+      const double away = distance(p, s.nearest(p));
+      const bool outside = away <= kContinuedWithin * std::max(s.size, field_.floor) &&
+                           (place[i] == Place::outside || boundary_.nearest(p, away).solid == 0);
       if (outside) h = std::max(s.size + field_.growth * s.continued_distance(p), kLeastContinued * s.size);
     }
     values[i] = static_cast<float>(std::max(std::min<double>(h, c.cap), field_.floor));

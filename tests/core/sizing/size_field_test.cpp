@@ -240,3 +240,38 @@ TEST_CASE("a source spreads past others that reached the same places before it")
     CHECK(worst < 1.15);
   }
 }
+
+TEST_CASE("a face is continued behind itself only, not behind other faces that look past it") {
+  // An L: the source is the top of its foot, and the outside of its leg lies above that plane.
+  constexpr double kSection[8][2] = {{0, 0},   {10, 0},  {60, 0}, {60, 10},
+                                     {10, 10}, {10, 50}, {0, 50}, {0, 10}};
+  test::Shape shape;
+  Plc& plc = shape.plc;
+  for (const double y : {0.0, 40.0})
+    for (const auto& [x, z] : kSection) plc.points.push_back({x, y, z});
+  const auto cap = [&](Index a, Index b, Index c, Index d) {
+    test::add_quad(plc, a, b, c, d, 0);
+    test::add_quad(plc, 8 + d, 8 + c, 8 + b, 8 + a, 1);
+  };
+  cap(0, 1, 4, 7), cap(1, 2, 3, 4), cap(7, 4, 5, 6);
+  constexpr Index kFaceOf[8] = {2, 2, 3, 4, 5, 6, 7, 7};
+  for (Index k = 0; k < 8; ++k) {
+    const Index l = (k + 1) % 8;
+    test::add_quad(plc, l, k, 8 + k, 8 + l, kFaceOf[k]);
+  }
+  plc.solid_count = 1;
+  plc.face_solids.assign(8, {1, 0});
+  test::add_segments(plc);
+  SizeOptions options = plain(20);
+  options.growth = 0.3;
+  options.face_size.assign(8, HUGE_VAL);
+  options.face_size[4] = 1;
+  Field f(shape, options);
+  Random random(7);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p = random_in(random, {0, 0, 15}, {10, 40, 50});
+    const double h = 1 + 0.3 * distance(p, {10, p.y, 10});
+    CHECK(f.field.at(p) > 0.85 * h);
+    CHECK(f.field.at(p) < 1.15 * h);
+  }
+}
