@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "refinement/acute_gap.h"
+#include "refinement/thin_gap.h"
 #include "refinement/angle_test.h"
 #include "refinement/boundary_flip.h"
 #include "refinement/boundary_site.h"
@@ -45,7 +45,7 @@ class Refinement {
         report_(report),
         target_(sharpness_of_angle(options.target_angle)),
         passable_(sharpness_of_angle(kPassable * options.target_angle)),
-        acute_gaps_(mesh, geometry),
+        thin_gaps_(mesh, geometry),
         constrained_search_(mesh.tets),
         boundary_site_(mesh, bound_, target_),
         expected_sites_(std::max(1.0, size.predicted_tetrahedra() / 5.5)) {}
@@ -86,7 +86,7 @@ class Refinement {
   }
 
   bool is_forced(Index tet) const {
-    return acute_gaps_.holds(tet, edge_size(tets_.point(tets_.corners(tet)[0])));
+    return thin_gaps_.holds(tet, edge_size(tets_.point(tets_.corners(tet)[0])));
   }
   bool is_bad(Index tet) const { return is_big(tet, sphere_of(tet)) || (sliver_mode_ && is_sharp(tet)); }
 
@@ -395,7 +395,7 @@ class Refinement {
   double target_;                  // sharpness of the target angle
   double passable_;                // sharpness that a boundary split may leave to the next round of slivers
   double acceptable_ = kRejected;  // sharpness that a boundary split must stay below
-  AcuteGaps acute_gaps_;
+  ThinGaps thin_gaps_;
   ConstrainedSearch constrained_search_;
   BoundarySite boundary_site_;
   double expected_sites_;

@@ -1,5 +1,5 @@
-// Tetrahedra that the input itself makes flat: between two CAD faces that meet at an acute edge, where the
-// solid is thinner than its elements are long.
+// Tetrahedra that the input itself makes flat: between two CAD faces that meet at an acute edge, or the two
+// sides of a thin wall, where the solid is thinner than its elements are long.
 //
 // No site and no split of the boundary betters their angles: there is no room inside, and more points on the
 // faces make more of such elements.  Refinement leaves them alone unless they are too long.
@@ -9,17 +9,19 @@
 
 namespace dm {
 
-class AcuteGaps {
+class ThinGaps {
  public:
   // After mark_acute_segments.
-  AcuteGaps(const LabelledTriangulation& mesh, const Geometry& geometry);
+  ThinGaps(const LabelledTriangulation& mesh, const Geometry& geometry);
 
-  // Does the tetrahedron reach from one face of an acute edge to the other where they are closer together
-  // than half of `edge`, without an edge much longer than that?  Cost: a look at its corners' faces, and at
-  // most four projections where they suit.
+  // Does the tetrahedron reach from one face of an acute edge or wall to the other where they are closer
+  // together than half of `edge`, without an edge much longer than that?  Cost: a look at its corners' faces,
+  // and at most four projections where they suit.
   bool holds(Index tet, double edge) const;
 
  private:
+  bool in_wall(const Tet& v, double gap) const;
+  bool opposed(Index a, Index b, std::array<Index, 2>& faces) const;
   bool spans(const Tet& v, const std::array<Index, 2>& faces, double gap) const;
   bool on_face(Index v, Index face) const;
 

@@ -1,4 +1,4 @@
-#include "refinement/acute_gap.h"
+#include "refinement/thin_gap.h"
 
 #include <algorithm>
 
@@ -6,12 +6,13 @@ namespace dm {
 
 namespace {
 
-constexpr double kThin = 0.5;  // gap over edge below which the gap decides the angles
+constexpr double kThin = 0.5;      // gap over edge below which the gap decides the angles
+constexpr double kOpposed = -0.9;  // cosine between the normals of a wall's sides
 constexpr double kLong = 2;  // edge over the wanted one from which on the tetrahedron is refined all the same
 
 }  // namespace
 
-AcuteGaps::AcuteGaps(const LabelledTriangulation& mesh, const Geometry& geometry)
+ThinGaps::ThinGaps(const LabelledTriangulation& mesh, const Geometry& geometry)
     : mesh_(mesh), geometry_(geometry) {
   BoundaryComplex::Fan fan;
   for (const auto& [key, unused] : mesh.boundary.acute_segments()) {
@@ -27,8 +28,7 @@ AcuteGaps::AcuteGaps(const LabelledTriangulation& mesh, const Geometry& geometry
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
-bool AcuteGaps::holds(Index tet, double edge) const {
-  if (pairs_.empty()) return false;
+bool ThinGaps::holds(Index tet, double edge) const {
   const Tet& v = mesh_.tets.corners(tet);
   for (int i = 0; i < 4; ++i) {
     if (!mesh_.boundary.on_boundary(v[i])) return false;
@@ -41,11 +41,36 @@ bool AcuteGaps::holds(Index tet, double edge) const {
          it != pairs_.end() && (*it)[0] == f; ++it)
       if (spans(v, *it, kThin * edge)) return true;
   }
+  return in_wall(v, kThin * edge);
+}
+
+// Between faces at two of the corners that are about parallel, and close to each other?
+bool ThinGaps::in_wall(const Tet& v, double gap) const {
+  std::array<Index, 2> faces{};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j)
+      if (opposed(v[i], v[j], faces) && spans(v, faces, gap)) return true;
+  return false;
+}
+
+bool ThinGaps::opposed(Index a, Index b, std::array<Index, 2>& faces) const {
+  const BoundaryComplex& boundary = mesh_.boundary;
+  const auto normal = [&](Index t) {
+    const Triangle& q = boundary.corners(t);
+    return normalized(area_vector(mesh_.tets.point(q[0]), mesh_.tets.point(q[1]), mesh_.tets.point(q[2])));
+  };
+  for (const Index s : boundary.triangles_at(a)) {
+    const Vec3 n = normal(s);
+    for (const Index t : boundary.triangles_at(b)) {
+      faces = {boundary.face(s), boundary.face(t)};
+      if (faces[0] != faces[1] && dot(n, normal(t)) < kOpposed) return true;
+    }
+  }
   return false;
 }
 
 // Are all corners on the two faces, some of them off each, and not farther than `gap` from it?
-bool AcuteGaps::spans(const Tet& v, const std::array<Index, 2>& faces, double gap) const {
+bool ThinGaps::spans(const Tet& v, const std::array<Index, 2>& faces, double gap) const {
   int off[2] = {0, 0};
   for (const Index p : v) {
     const bool first = on_face(p, faces[0]), second = on_face(p, faces[1]);
@@ -62,7 +87,7 @@ bool AcuteGaps::spans(const Tet& v, const std::array<Index, 2>& faces, double ga
   return true;
 }
 
-bool AcuteGaps::on_face(Index v, Index face) const {
+bool ThinGaps::on_face(Index v, Index face) const {
   const auto near = mesh_.boundary.triangles_at(v);
   return std::any_of(near.begin(), near.end(), [&](Index t) { return mesh_.boundary.face(t) == face; });
 }
