@@ -142,6 +142,10 @@ class Repairer {
                                           mesh_.position(c[3]));
       all.min = std::min(all.min, r.min);
       all.max = std::max(all.max, r.max);
+      // The angles of a tetrahedron and of its mirror image are the same.
+      const Vec3& a = mesh_.position(c[0]);
+      const Vec3 base = area_vector(a, mesh_.position(c[1]), mesh_.position(c[2]));
+      if (dot(base, mesh_.position(c[3]) - a) <= 0) return {0, 180};
     }
     return all;
   }
