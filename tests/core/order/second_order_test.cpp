@@ -170,6 +170,57 @@ TEST_CASE("what cannot be bent is straightened and listed") {
   check_promises(s, order, geometry);
 }
 
+// A prism between two triangles at heights `floor` and `roof`; all elements share an interior point at height
+// `apex`.  The floor stands for a piece of the unit sphere, which can bulge above that point; the other faces
+// are planes.
+sample::Sample prism_over_sphere(double floor, double apex, double roof) {
+  sample::Sample s;
+  const double radius = std::sqrt(1 - floor * floor);
+  for (const double z : {floor, roof})
+    for (int i = 0; i < 3; ++i) {
+      const double a = 2 * std::numbers::pi * i / 3;
+      s.mesh.points.push_back({radius * std::cos(a), radius * std::sin(a), z});
+    }
+  s.mesh.points.push_back({0, 0, apex});
+  s.mesh.point_entity.assign(6, {0, 0});
+  s.mesh.point_entity.push_back({3, 1});
+  s.mesh.tets = {{0, 1, 2, 6}, {3, 5, 4, 6}};
+  for (Index i = 0; i < 3; ++i) {
+    const Index j = (i + 1) % 3;
+    s.mesh.tets.push_back({i, 3 + i, j, 6});
+    s.mesh.tets.push_back({j, 3 + i, 3 + j, 6});
+  }
+  sample::link(s.mesh);
+  Index plane = 0;
+  sample::add_boundary(s.mesh, [&](const Triangle& t) { return t[0] + t[1] + t[2] == 3 ? 0 : ++plane; });
+  for (std::size_t k = 0; k < s.mesh.triangles.size(); ++k)
+    if (s.mesh.triangle_face[k] == 0) {
+      std::swap(s.mesh.triangles[k], s.mesh.triangles.back());
+      std::swap(s.mesh.triangle_face[k], s.mesh.triangle_face.back());
+    }
+  s.records.faces.resize(8);
+  s.records.faces[0] = sample::sphere(1);
+  s.plc = sample::boundary_plc(s.mesh, 8, 0);
+  return s;
+}
+
+TEST_CASE("a corner that moves out of the way of a bulge inverts no straight element") {
+  Random random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double floor = 0.05 + 0.6 * random.uniform(), roof = floor + 0.1 + random.uniform();
+    const double apex = floor + (roof - floor) * (0.1 + 0.8 * random.uniform());
+    auto s = prism_over_sphere(floor, apex, roof);
+    const Geometry geometry(s.plc, s.records);
+    Context context;
+    const auto order = make_second_order(s.mesh, geometry, context);
+    for (const Tet& t : s.mesh.tets) {
+      const Vec3& a = s.mesh.points[t[0]];
+      CHECK(dot(area_vector(a, s.mesh.points[t[1]], s.mesh.points[t[2]]), s.mesh.points[t[3]] - a) > 0);
+    }
+    check_promises(s, order, geometry);
+  }
+}
+
 TEST_CASE("same mesh, same bytes, for the second order too") {
   auto a = sample::cylinder(10, 30, 5, 3), b = a;
   const Geometry geometry(a.plc, a.records);
