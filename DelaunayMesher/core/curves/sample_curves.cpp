@@ -84,12 +84,18 @@ class Sampler {
     for (const Chain& chain : chains_)
       for (Index p : {chain.points.front(), chain.points.back()}) {
         result_.role[p] = CurvePointRole::fixed;
-        result_.entity[p] = {1, chain.edge};
+        if (off_edge(p, chain.edge) < off_edge(p, result_.entity[p].index))
+          result_.entity[p] = {1, chain.edge};
       }
     for (std::size_t c = 0; c < plc_.corners.size(); ++c) {
       result_.role[plc_.corners[c]] = CurvePointRole::fixed;
       result_.entity[plc_.corners[c]] = {0, plc_.corner_vertex[c]};
     }
+  }
+
+  // Where an absorbed face ends, edges meet at a point that is on one of them only.
+  double off_edge(Index p, Index edge) const {
+    return edge < 0 ? HUGE_VAL : distance(plc_.points[p], geometry_.project_to_edge(edge, plc_.points[p]));
   }
 
   // Refines the chain's polyline on the exact curve into pieces much shorter than the wanted length.

@@ -56,11 +56,9 @@ class Absorber {
     if (features_.empty()) return given_;
     active_.assign(features_.size(), 1);
     rank_points();
-    find_boundaries();
     do {
       if (std::find(active_.begin(), active_.end(), 1) == active_.end()) return given_;
       join_points();
-      vanish_faces();
       make_triangles();
       bad_.assign(plc_.points.size(), 0);
       check_normals();
@@ -89,18 +87,11 @@ class Absorber {
       rank_[plc_.corners[c]] = std::min(rank_[plc_.corners[c]], plc_.corner_vertex[c]);
   }
 
-  void find_boundaries() {
-    std::vector<char> wanted(plc_.face_solids.size(), 0);
-    for (const SmallFeature& feature : features_)
-      if (feature.face >= 0) wanted[feature.face] = 1;
-    boundaries_ = SegmentTable(plc_).boundaries(plc_, wanted);
-  }
-
   // Where too many would come together (a curve of many tiny edges), the longer ones stay.
   void join_points() {
     Clusters clusters(plc_.points);
     for (std::size_t k = 0; k < features_.size(); ++k)
-      for (const auto& [p, q] : features_[k].pairs) {
+      for (const auto& [p, q] : features_[k]) {
         if (!active_[k]) break;
         if (clusters.join(p, q, kWidest * tolerance_(plc_.points[p]))) continue;
         refused_.push_back(static_cast<Index>(k));
@@ -120,29 +111,10 @@ class Absorber {
     }
   }
 
-  // A face can be left out if its boundary, run through once, runs through every segment both ways.
-  void vanish_faces() {
-    vanished_.assign(plc_.face_solids.size(), 0);
-    for (std::size_t k = 0; k < features_.size(); ++k) {
-      const Index f = features_[k].face;
-      if (f < 0 || !active_[k]) continue;
-      std::vector<Segment> rest;
-      for (const auto& [a, b] : boundaries_[f])
-        if (to_[a] != to_[b]) rest.push_back({to_[a], to_[b]});
-      std::vector<Segment> back;
-      for (const auto& [a, b] : rest) back.push_back({b, a});
-      std::sort(rest.begin(), rest.end());
-      std::sort(back.begin(), back.end());
-      vanished_[f] = rest == back;
-      if (!vanished_[f]) refused_.push_back(static_cast<Index>(k));
-    }
-  }
-
   void make_triangles() {
     triangles_.clear();
     source_.clear();
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
-      if (vanished_[plc_.triangle_face[t]]) continue;
       const auto [a, b, c] = plc_.triangles[t];
       const Triangle v{to_[a], to_[b], to_[c]};
       if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
@@ -243,7 +215,7 @@ class Absorber {
     for (const Index k : refused_) active_[k] = 0;
     refused_.clear();
     for (std::size_t k = 0; k < features_.size(); ++k)
-      for (const auto& [p, q] : features_[k].pairs) {
+      for (const auto& [p, q] : features_[k]) {
         if (!active_[k] || !bad_[to_[p]]) continue;
         active_[k] = 0;
         changed = true;
@@ -319,14 +291,12 @@ class Absorber {
   Plc plc_;  // with divided segments
   const Tolerance& tolerance_;
   std::vector<SmallFeature> features_;
-  std::vector<char> active_;                      // by feature
-  std::vector<Index> rank_;                       // by point
-  std::vector<std::vector<Segment>> boundaries_;  // by face, of features only
-  std::vector<Index> to_;                         // by point: the one that it becomes
-  std::vector<char> joined_;                      // by point: it has become, or others have become it
-  std::vector<char> bad_;                         // by point that stays: may not be joined as it was
-  std::vector<Index> refused_;                    // features
-  std::vector<char> vanished_;                    // by face
+  std::vector<char> active_;    // by feature
+  std::vector<Index> rank_;     // by point
+  std::vector<Index> to_;       // by point: the one that it becomes
+  std::vector<char> joined_;    // by point: it has become, or others have become it
+  std::vector<char> bad_;       // by point that stays: may not be joined as it was
+  std::vector<Index> refused_;  // features
   std::vector<Triangle> triangles_;
   std::vector<Index> source_;  // of triangles_, in plc_
 };

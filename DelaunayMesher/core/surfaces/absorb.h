@@ -2,17 +2,18 @@
 //
 // Idea: a step of a thousandth of the element size (a print, a modelling error), a fillet with such a radius,
 // an edge left over by a Boolean operation can only be meshed with tiny or with flat elements all along.  The
-// points of a tiny edge become one; those that face each other across a narrow face do, and the face
-// disappears: its two long edges become one.  Faces beside it then end up to the tolerance off their surface.
+// points of a tiny edge become one; those that face each other across a narrow face, or a narrow part of one,
+// do, and with them the two curves along it: the face ends there, or is gone.  Faces beside it then end up to
+// the tolerance off their surface.
 //
-// Nothing is absorbed where that would do harm: where the boundary of the face does not cancel itself out,
-// where a triangle would turn over, coincide with or cross another, or two faces meet at an acute angle (the
-// rim of a thin plate, the floor of a slit).  What is rejected at one place is kept whole.
+// Nothing is absorbed where that would do harm: where a triangle would turn over, coincide with or cross
+// another, or two faces meet at an acute angle (the rim of a thin plate, the floor of a slit).  What is
+// rejected at one place is kept whole.
 //
 // Precondition: check_plc.  Postcondition: check_plc; points keep their numbers, new ones follow; CAD
 // elements that are gone are reported and have no triangles, segments or corners any more.
 // Cost: linear where nothing is small, else a few sorts of the triangles round what is.
-// Known limit: a face is absorbed whole or not at all, so one that is narrow in parts stays.
+// Known limit: nothing is done about a narrow slit or wall, whose sides are different faces.
 #pragma once
 
 #include <vector>

@@ -78,13 +78,17 @@ class NarrowPlaces {
     return false;
   }
 
+  // Where an edge ends: at points that one of its segments has, CAD vertices or not (absorbed faces).
   void find_edge_ends() {
-    Index edge_count = 0;
-    for (const Index e : mesh_.segment_edge) edge_count = std::max(edge_count, e + 1);
-    edge_ends_.resize(edge_count);
+    std::vector<std::pair<Index, Index>> uses;
     for (std::size_t s = 0; s < mesh_.segments.size(); ++s)
-      for (const Index p : mesh_.segments[s])
-        if (mesh_.point_entity[p].dimension == 0) edge_ends_[mesh_.segment_edge[s]].push_back(p);
+      for (const Index p : mesh_.segments[s]) uses.emplace_back(mesh_.segment_edge[s], p);
+    std::sort(uses.begin(), uses.end());
+    edge_ends_.resize(uses.empty() ? 0 : uses.back().first + 1);
+    for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
+      while (j < uses.size() && uses[j] == uses[i]) ++j;
+      if (j == i + 1) edge_ends_[uses[i].first].push_back(uses[i].second);
+    }
   }
 
   bool is_segment(Index a, Index b) {
@@ -98,7 +102,7 @@ class NarrowPlaces {
   const SurfaceMesh& mesh_;
   const LengthField& lengths_;
   std::vector<std::pair<Index, Index>> segments_;  // sorted; made when first needed, as is
-  std::vector<std::vector<Index>> edge_ends_;      // CAD vertices by edge
+  std::vector<std::vector<Index>> edge_ends_;      // points by edge
 };
 
 // Points of a face may fall on the same place where it is folded sharply: the nearest place of the other

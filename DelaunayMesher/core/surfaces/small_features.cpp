@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace dm {
 namespace {
 
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
-constexpr std::size_t kMostSegments = 2000;  // round a narrow face
-
-// A place on a segment, at the part t of the way from its first end.
-struct Division {
-  Index segment;
-  double t;
-  Index feature, from;  // the point that it shall face
-  Vec3 place;
-  bool operator<(const Division& o) const {
-    return segment != o.segment ? segment < o.segment : t != o.t ? t < o.t : from < o.from;
-  }
-};
+constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
+constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
+constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 
 class Finder {
  public:
@@ -26,177 +18,282 @@ class Finder {
       : plc_(plc), geometry_(geometry), tolerance_(tolerance), table_(plc) {}
 
   std::vector<SmallFeature> run() {
-    measure_edges();
-    find_faces();
-    find_edges();
-    divide_segments();
+    collect_edges();
+    const std::vector<Index> faces = faces_with_narrow_places();
+    if (!faces.empty()) collect_triangles(faces);
+    for (const Index f : faces) search_face(f);
+    std::stable_sort(found_.begin(), found_.end(),
+                     [&](const SmallFeature& a, const SmallFeature& b) { return width(a) < width(b); });
     return std::move(found_);
   }
 
  private:
-  void measure_edges() {
+  const Vec3& at(Index p) const { return plc_.points[p]; }
+
+  double width(const SmallFeature& feature) const {
+    double most = 0;
+    for (const auto& [p, q] : feature) most = std::max(most, distance(at(p), at(q)));
+    return most;
+  }
+
+  void collect_edges() {
     length_.assign(plc_.edge_count, 0);
     ends_.resize(plc_.edge_count);
+    edges_of_.resize(plc_.points.size());
     for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
-      const auto [a, b] = plc_.segments[s];
       const Index e = plc_.segment_edge[s];
-      length_[e] += distance(plc_.points[a], plc_.points[b]);
-      for (const Index p : {a, b}) toggle(ends_[e], p);
+      length_[e] += distance(at(plc_.segments[s][0]), at(plc_.segments[s][1]));
+      for (const Index p : plc_.segments[s]) {
+        std::vector<Index>& edges = edges_of_[p];
+        if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
+        toggle(ends_[e], p);
+      }
     }
   }
 
-  // Ends of a chain are the points met once.
+  // Ends of a curve are the points met once.
   static void toggle(std::vector<Index>& ends, Index p) {
-    const auto at = std::find(ends.begin(), ends.end(), p);
-    if (at == ends.end())
+    const auto found = std::find(ends.begin(), ends.end(), p);
+    if (found == ends.end())
       ends.push_back(p);
     else
-      ends.erase(at);
+      ends.erase(found);
   }
 
-  bool tiny(Index edge) const {
-    return ends_[edge].size() == 2 && length_[edge] < tolerance_(plc_.points[ends_[edge][0]]);
+  Index segment(Index a, Index b) const {
+    const auto found = divided_.find(std::minmax(a, b));
+    return found != divided_.end() ? found->second : table_.find(a, b);
+  }
+  bool tiny_edge(Index e) const { return ends_[e].size() == 2 && length_[e] < tolerance_(at(ends_[e][0])); }
+  bool on_curve(Index p) const { return !edges_of_[p].empty(); }
+  bool share_edge(Index p, Index q) const {
+    for (const Index e : edges_of_[p])
+      if (std::find(edges_of_[q].begin(), edges_of_[q].end(), e) != edges_of_[q].end()) return true;
+    return false;
   }
 
-  void find_faces() {
-    const std::size_t n = plc_.face_solids.size();
-    std::vector<double> area(n, 0), perimeter(n, 0);
-    std::vector<Index> point(n, -1);
+  // A side that would vanish: a tiny edge, or across the face from one curve to another.
+  bool is_short(Index a, Index b) const {
+    if (!on_curve(a) || !on_curve(b) || !(distance(at(a), at(b)) < tolerance_(at(a)))) return false;
+    const Index s = segment(a, b);
+    return s >= 0 ? tiny_edge(plc_.segment_edge[s]) : !share_edge(a, b);
+  }
+
+  // Where the segment (a, b), a side of a triangle, passes its third corner p; nothing unless p is near, on
+  // another curve, and no end of the segment faces it.
+  bool passes(Index a, Index b, Index p, Vec3& place) const {
+    if (!on_curve(a) || !on_curve(b) || !on_curve(p)) return false;
+    const Vec3 along = at(b) - at(a);
+    const double t = dot(at(p) - at(a), along) / norm2(along), limit = tolerance_(at(p));
+    if (!(t > 0 && t < 1) || norm2(at(a) + t * along - at(p)) > kThin * kThin * limit * limit) return false;
+    const Index s = segment(a, b);
+    if (s < 0) return false;
+    const Index edge = plc_.segment_edge[s];
+    if (std::find(edges_of_[p].begin(), edges_of_[p].end(), edge) != edges_of_[p].end()) return false;
+    place = geometry_.project_to_edge(edge, at(a) + t * along);
+    const double w = distance(place, at(p));
+    if (!(w < limit) || std::min(distance(at(a), place), distance(at(b), place)) < 0.1 * w) return false;
+    // A vertex within reach is faced rather than a place beside it.
+    for (const Index end : {a, b})
+      if (distance(at(end), at(p)) < (edges_of_[end].size() > 1 ? limit : kFacing * w)) return false;
+    return true;
+  }
+
+  std::vector<Index> faces_with_narrow_places() const {
+    std::vector<char> found(plc_.face_solids.size(), 0);
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
       const Triangle& v = plc_.triangles[t];
-      const Index f = plc_.triangle_face[t];
-      point[f] = v[0];
-      area[f] += 0.5 * norm(area_vector(plc_.points[v[0]], plc_.points[v[1]], plc_.points[v[2]]));
-      for (int i = 0; i < 3; ++i)
-        if (table_.find(v[i], v[(i + 1) % 3]) >= 0)
-          perimeter[f] += distance(plc_.points[v[i]], plc_.points[v[(i + 1) % 3]]);
-    }
-    std::vector<char> narrow(n, 0);  // or not: chords of curves make the triangles wider than the face
-    for (std::size_t f = 0; f < n; ++f)
-      narrow[f] = point[f] >= 0 && area[f] < perimeter[f] * tolerance_(plc_.points[point[f]]);
-    if (std::find(narrow.begin(), narrow.end(), 1) == narrow.end()) return;
-    const auto boundaries = table_.boundaries(plc_, narrow);
-    for (std::size_t f = 0; f < n; ++f)
-      if (narrow[f] && boundaries[f].size() <= kMostSegments) add_face(static_cast<Index>(f), boundaries[f]);
-  }
-
-  void add_face(Index face, const std::vector<Segment>& boundary) {
-    std::map<Index, std::vector<Index>> edges_at;  // by point of the boundary
-    for (const auto& [a, b] : boundary)
-      for (const Index p : {a, b}) edges_at[p].push_back(plc_.segment_edge[table_.find(a, b)]);
-    found_.push_back({face, -1, {}});
-    for (const auto& [a, b] : boundary)
-      if (tiny(plc_.segment_edge[table_.find(a, b)])) found_.back().pairs.emplace_back(a, b);
-    for (const auto& [p, edges] : edges_at) face_point(p, edges, boundary);
-    const bool divides =
-        !divisions_.empty() && divisions_.back().feature + 1 == static_cast<Index>(found_.size());
-    if (found_.back().pairs.empty() && !divides) found_.pop_back();
-  }
-
-  // What p faces on the curves of the boundary that do not pass through it.
-  void face_point(Index p, const std::vector<Index>& edges, const std::vector<Segment>& boundary) {
-    const Vec3& x = plc_.points[p];
-    Division nearest{-1, 0, static_cast<Index>(found_.size()) - 1, p, {}};
-    double least = HUGE_VAL;
-    for (const auto& [a, b] : boundary) {
-      const Index s = table_.find(a, b);
-      if (std::find(edges.begin(), edges.end(), plc_.segment_edge[s]) != edges.end()) continue;
-      const auto [c, d] = plc_.segments[s];
-      const Vec3 along = plc_.points[d] - plc_.points[c];
-      const double t = std::clamp(dot(x - plc_.points[c], along) / norm2(along), 0.0, 1.0);
-      const Vec3 q = plc_.points[c] + t * along;
-      if (!(distance(q, x) < least)) continue;
-      least = distance(q, x);
-      nearest.segment = s;
-      nearest.t = t;
-      nearest.place = q;
-    }
-    if (nearest.segment < 0) return;
-    nearest.place = geometry_.project_to_edge(plc_.segment_edge[nearest.segment], nearest.place);
-    const double width = distance(nearest.place, x);
-    const auto [c, d] = plc_.segments[nearest.segment];
-    const Index end = distance(plc_.points[c], x) < distance(plc_.points[d], x) ? c : d;
-    const double limit = tolerance_(x), to_end = distance(plc_.points[end], x);
-    if (to_end < limit && to_end <= kFacing * width)
-      found_.back().pairs.emplace_back(p, end);
-    else if (width < limit && nearest.t > 0 && nearest.t < 1)
-      divisions_.push_back(nearest);
-  }
-
-  void find_edges() {
-    std::vector<Index> edges;
-    for (Index e = 0; e < plc_.edge_count; ++e)
-      if (tiny(e)) edges.push_back(e);
-    std::sort(edges.begin(), edges.end(),
-              [&](Index e, Index f) { return length_[e] != length_[f] ? length_[e] < length_[f] : e < f; });
-    std::vector<Index> feature(plc_.edge_count, -1);
-    for (const Index e : edges) {
-      feature[e] = static_cast<Index>(found_.size());
-      found_.push_back({-1, e, {}});
-    }
-    for (std::size_t s = 0; s < plc_.segments.size(); ++s)
-      if (const Index k = feature[plc_.segment_edge[s]]; k >= 0)
-        found_[k].pairs.emplace_back(plc_.segments[s][0], plc_.segments[s][1]);
-  }
-
-  void divide_segments() {
-    if (divisions_.empty()) return;
-    std::sort(divisions_.begin(), divisions_.end());
-    std::vector<std::vector<Index>> triangles(plc_.points.size());  // round the points of divided segments
-    for (const Division& d : divisions_)
-      for (const Index p : plc_.segments[d.segment]) triangles[p].push_back(-1);
-    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
-      for (const Index p : plc_.triangles[t])
-        if (!triangles[p].empty()) triangles[p].push_back(static_cast<Index>(t));
-    Index segment = -1, whole = -1;  // the one being divided: its rest, and its number at first
-    double last = 0;
-    for (const Division& d : divisions_) {
-      if (d.segment != whole) {
-        whole = segment = d.segment;
-        last = -1;
+      char& narrow = found[plc_.triangle_face[t]];
+      for (int i = 0; i < 3 && !narrow; ++i) {
+        const Index a = v[i], b = v[(i + 1) % 3], p = v[(i + 2) % 3];
+        Vec3 place;
+        narrow = is_short(a, b) || passes(a, b, p, place);
       }
-      if (d.t > last) segment = divide(segment, d.place, triangles);
-      last = d.t;
-      found_[d.feature].pairs.emplace_back(d.from, plc_.segments[segment][0]);
+    }
+    std::vector<Index> faces;
+    for (std::size_t f = 0; f < found.size(); ++f)
+      if (found[f]) faces.push_back(static_cast<Index>(f));
+    return faces;
+  }
+
+  // Triangles of the faces that are searched, and those round the points of curves.
+  void collect_triangles(const std::vector<Index>& faces) {
+    by_face_.resize(plc_.face_solids.size());
+    searched_.assign(plc_.face_solids.size(), 0);
+    for (const Index f : faces) searched_[f] = 1;
+    round_.resize(plc_.points.size());
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
+      if (searched_[plc_.triangle_face[t]]) by_face_[plc_.triangle_face[t]].push_back(static_cast<Index>(t));
+      for (const Index p : plc_.triangles[t])
+        if (on_curve(p)) round_[p].push_back(static_cast<Index>(t));
     }
   }
 
-  // Divides a segment and its triangles at p; returns the part behind p.
-  Index divide(Index s, const Vec3& p, std::vector<std::vector<Index>>& triangles) {
+  // ---- one face
+
+  void search_face(Index face) {
+    half_.clear();
+    for (const Index t : by_face_[face])
+      for (int i = 0; i < 3; ++i)
+        if (!half_.emplace(side(t, i), t).second) return;  // folded onto itself
+    steps_ = kMostSteps * by_face_[face].size() + 1000;
+    std::vector<Segment> open;
+    for (const auto& [ends, t] : half_) open.push_back(ends);
+    flip(open);
+    while (!open.empty() && steps_ > 0) {
+      const Segment ends = open.back();
+      open.pop_back();
+      const auto found = half_.find(ends);
+      if (found == half_.end()) continue;
+      Vec3 place;
+      if (!passes(ends[0], ends[1], apex(found->second, ends), place)) continue;
+      const Index v = divide(segment(ends[0], ends[1]), place, face);
+      std::vector<Segment> around;
+      for (const Index t : round_[v])
+        if (plc_.triangle_face[t] == face)
+          for (int i = 0; i < 3; ++i) around.push_back(side(t, i));
+      flip(around);
+      open.push_back({ends[0], v});
+      open.push_back({v, ends[1]});
+    }
+    collect_features(face);
+  }
+
+  Segment side(Index t, int i) const { return {plc_.triangles[t][i], plc_.triangles[t][(i + 1) % 3]}; }
+  Index apex(Index t, const Segment& ends) const {
+    for (const Index p : plc_.triangles[t])
+      if (p != ends[0] && p != ends[1]) return p;
+    return -1;
+  }
+
+  double height(Index a, Index b, Index c) const {
+    const double longest2 = std::max({norm2(at(b) - at(a)), norm2(at(c) - at(b)), norm2(at(a) - at(c))});
+    return norm(area_vector(at(a), at(b), at(c))) / std::sqrt(longest2);
+  }
+
+  // Lawson flips among thin triangles.
+  void flip(std::vector<Segment> stack) {
+    while (!stack.empty() && steps_ > 0) {
+      const Segment ends = stack.back();
+      stack.pop_back();
+      const auto one = half_.find(ends), other = half_.find({ends[1], ends[0]});
+      if (one == half_.end() || other == half_.end() || segment(ends[0], ends[1]) >= 0) continue;
+      const Index s = one->second, t = other->second, c = apex(s, ends), d = apex(t, ends);
+      if (!wants_flip(ends[0], ends[1], c, d)) continue;
+      --steps_;
+      for (const Index u : {s, t})
+        for (int i = 0; i < 3; ++i) half_.erase(side(u, i));
+      replace(s, {c, ends[0], d});
+      replace(t, {d, ends[1], c});
+      for (const Index u : {s, t})
+        for (int i = 0; i < 3; ++i) {
+          half_[side(u, i)] = u;
+          stack.push_back(side(u, i));
+        }
+    }
+  }
+
+  // Of the triangles (a, b, c) and (b, a, d): both thin, the angles at c and d over 180 degrees together, and
+  // the new ones facing as the old.
+  bool wants_flip(Index a, Index b, Index c, Index d) const {
+    const double limit = kThin * tolerance_(at(a));
+    if (c == d || height(a, b, c) > limit || height(b, a, d) > limit) return false;
+    const Vec3 n1 = area_vector(at(a), at(b), at(c)), n2 = area_vector(at(b), at(a), at(d));
+    const Vec3 m1 = area_vector(at(c), at(a), at(d)), m2 = area_vector(at(d), at(b), at(c));
+    const Vec3 n = n1 + n2;
+    if (!(dot(m1, n) > 0 && dot(m2, n) > 0) || half_.contains({c, d}) || half_.contains({d, c})) return false;
+    const double s1 = norm(n1), s2 = norm(n2);
+    const double d1 = dot(at(a) - at(c), at(b) - at(c)), d2 = dot(at(a) - at(d), at(b) - at(d));
+    return s1 * d2 + s2 * d1 < -kFlipMargin * (std::abs(s1 * d2) + std::abs(s2 * d1));
+  }
+
+  void replace(Index t, const Triangle& v) {
+    for (const Index p : plc_.triangles[t]) std::erase(round_[p], t);
+    plc_.triangles[t] = v;
+    for (const Index p : v)
+      if (on_curve(p)) round_[p].push_back(t);
+  }
+
+  // Divides a segment and all its triangles at p; returns the new point.
+  Index divide(Index s, const Vec3& p, Index face) {
+    --steps_;
     const auto [a, b] = plc_.segments[s];
-    const Index v = static_cast<Index>(plc_.points.size());
+    const Index v = static_cast<Index>(plc_.points.size()), edge = plc_.segment_edge[s];
     plc_.points.push_back(p);
-    triangles.emplace_back();
-    const std::vector<Index> round = triangles[a];
+    round_.emplace_back();
+    edges_of_.push_back({edge});
+    const std::vector<Index> round = round_[a];
     for (const Index t : round) {
-      if (t < 0) continue;
-      Triangle& first = plc_.triangles[t];
-      const auto at = std::find(first.begin(), first.end(), b);
-      if (at == first.end() || std::find(first.begin(), first.end(), a) == first.end()) continue;
-      Triangle second = first;
-      *at = v;
-      *std::find(second.begin(), second.end(), a) = v;
-      const Index n = static_cast<Index>(plc_.triangles.size());
+      const Triangle old = plc_.triangles[t];
+      if (std::find(old.begin(), old.end(), b) == old.end()) continue;
+      const Index n = static_cast<Index>(plc_.triangles.size()), f = plc_.triangle_face[t];
+      if (f == face)
+        for (int i = 0; i < 3; ++i) half_.erase(side(t, i));
+      Triangle first = old, second = old;
+      std::replace(first.begin(), first.end(), b, v);
+      std::replace(second.begin(), second.end(), a, v);
+      replace(t, first);
       plc_.triangles.push_back(second);
-      plc_.triangle_face.push_back(plc_.triangle_face[t]);
-      std::erase(triangles[b], t);
+      plc_.triangle_face.push_back(f);
       for (const Index q : second)
-        if (q == v || !triangles[q].empty()) triangles[q].push_back(n);
-      triangles[v].push_back(t);
+        if (on_curve(q)) round_[q].push_back(n);
+      if (searched_[f]) by_face_[f].push_back(n);
+      if (f == face)
+        for (const Index u : {t, n})
+          for (int i = 0; i < 3; ++i) half_[side(u, i)] = u;
     }
     plc_.segments[s] = {a, v};
     plc_.segments.push_back({v, b});
-    plc_.segment_edge.push_back(plc_.segment_edge[s]);
-    return static_cast<Index>(plc_.segments.size()) - 1;
+    plc_.segment_edge.push_back(edge);
+    divided_[std::minmax(a, v)] = s;
+    divided_[std::minmax(v, b)] = static_cast<Index>(plc_.segments.size()) - 1;
+    return v;
+  }
+
+  // The short sides, by sets of triangles that hang together.
+  void collect_features(Index face) {
+    const auto short_sides = [&](Index t) {
+      int n = 0;
+      for (int i = 0; i < 3; ++i) n += is_short(side(t, i)[0], side(t, i)[1]);
+      return n;
+    };
+    std::set<Index> left;
+    for (const Index t : by_face_[face])
+      if (short_sides(t) > 0) left.insert(t);
+    while (!left.empty()) {
+      std::set<std::pair<Index, Index>> pairs;
+      std::vector<Index> stack{*left.begin()};
+      left.erase(left.begin());
+      while (!stack.empty()) {
+        const Index t = stack.back();
+        stack.pop_back();
+        for (int i = 0; i < 3; ++i) {
+          const auto [a, b] = side(t, i);
+          if (is_short(a, b)) pairs.insert(std::minmax(a, b));
+          const auto beside = half_.find({b, a});
+          if (beside == half_.end() || segment(a, b) >= 0 || left.erase(beside->second) == 0) continue;
+          stack.push_back(beside->second);
+        }
+      }
+      // One side across closes no strip: it would only move the tip of a wedge.
+      if (pairs.size() > 1 || segment(pairs.begin()->first, pairs.begin()->second) >= 0)
+        found_.emplace_back(pairs.begin(), pairs.end());
+    }
   }
 
   Plc& plc_;
   const Geometry& geometry_;
   const Tolerance& tolerance_;
   const SegmentTable table_;
-  std::vector<double> length_;
+  std::map<std::pair<Index, Index>, Index> divided_;  // segments that table_ does not know
+  std::vector<double> length_;                        // by edge, as its ends
   std::vector<std::vector<Index>> ends_;
-  std::vector<Division> divisions_;
+  std::vector<std::vector<Index>> edges_of_;  // by point
+  std::vector<std::vector<Index>> round_;     // by point of a curve: its triangles
+  std::vector<std::vector<Index>> by_face_;   // of faces that are searched: their triangles
+  std::vector<char> searched_;
+  std::map<Segment, Index> half_;  // of the face at hand: directed side -> triangle
+  std::size_t steps_ = 0;          // left for the face at hand
   std::vector<SmallFeature> found_;
 };
 
@@ -215,18 +312,6 @@ Index SegmentTable::find(Index a, Index b) const {
   const std::array<Index, 3> key{std::min(a, b), std::max(a, b), -1};
   const auto at = std::lower_bound(ends_.begin(), ends_.end(), key);
   return at != ends_.end() && (*at)[0] == key[0] && (*at)[1] == key[1] ? (*at)[2] : -1;
-}
-
-std::vector<std::vector<Segment>> SegmentTable::boundaries(const Plc& plc,
-                                                           const std::vector<char>& wanted) const {
-  std::vector<std::vector<Segment>> result(wanted.size());
-  for (std::size_t t = 0; t < plc.triangles.size(); ++t) {
-    if (!wanted[plc.triangle_face[t]]) continue;
-    const Triangle& v = plc.triangles[t];
-    for (int i = 0; i < 3; ++i)
-      if (find(v[i], v[(i + 1) % 3]) >= 0) result[plc.triangle_face[t]].push_back({v[i], v[(i + 1) % 3]});
-  }
-  return result;
 }
 
 std::vector<SmallFeature> find_small_features(Plc& plc, const Geometry& geometry,

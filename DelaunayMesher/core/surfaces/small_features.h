@@ -1,9 +1,11 @@
-// CAD edges and faces that are too small for the wanted sizes: what would have to be joined to absorb each.
+// Places of CAD faces that are too narrow for the wanted sizes, and edges too short: which points would have
+// to become one to absorb each.
 //
-// A face is narrow when the distance of every point of its boundary from the curves opposite is below the
-// tolerance; where a point of one curve has none facing
-// it on the other, the other's segment is divided there, on the exact curve.  An edge is tiny when its length
-// is below the tolerance and it is not closed.  Cost: linear, and quadratic in the boundary of narrow faces.
+// A face is narrow where a point of one of its curves has another one at less than the tolerance across the
+// face.  Where the other curve has no point there, its segment is divided, on the exact curve; flips then
+// make every triangle there have a side across.  These sides, and tiny edges, are the pairs of points.
+// Connected ones belong together: a strip is absorbed at both of its ends or not at all.
+// Cost: linear, and logarithmic in the size of faces with narrow places.
 #pragma once
 
 #include <functional>
@@ -17,21 +19,16 @@ namespace dm {
 
 using Tolerance = std::function<double(const Vec3&)>;  // mm, at a place
 
-struct SmallFeature {
-  Index face = -1, edge = -1;                  // one of them
-  std::vector<std::pair<Index, Index>> pairs;  // points that become one
-};
+using SmallFeature = std::vector<std::pair<Index, Index>>;  // points that become one
 
-// Narrow faces first, then tiny edges by length.  Segments of the PLC may be divided.
+// Narrowest first.  Segments of the PLC may be divided, and triangles at narrow places flipped.
 std::vector<SmallFeature> find_small_features(Plc& plc, const Geometry& geometry, const Tolerance& tolerance);
 
-// Segments by their ends, and those round a face with the direction in which its triangles run along them.
+// Segments by their ends.
 class SegmentTable {
  public:
   explicit SegmentTable(const Plc& plc);
   Index find(Index a, Index b) const;  // -1 = none
-  // Directed boundary of each face of `wanted` (by face).
-  std::vector<std::vector<Segment>> boundaries(const Plc& plc, const std::vector<char>& wanted) const;
 
  private:
   std::vector<std::array<Index, 3>> ends_;  // sorted: lower point, higher point, segment

@@ -1,0 +1,109 @@
+"""Families of parts with one dimension running down to nothing, at one element size: none may fail, and the
+number of elements may not jump."""
+
+import math
+
+import FreeCAD
+import numpy as np
+import Part
+import pytest
+
+import DelaunayMesher
+
+V = FreeCAD.Vector
+
+
+def thin_plate(thickness):
+    return Part.makeBox(40, 30, thickness)
+
+
+def filleted_block(radius):
+    box = Part.makeBox(40, 30, 20)
+    return box.makeFillet(radius, [e for e in box.Edges if abs(e.tangentAt(e.FirstParameter).z) > 0.9])
+
+
+def cylinders_with_gap(gap):
+    """Side by side, on one plate."""
+    plate = Part.makeBox(60, 30, 5, V(-15, -15, -5))
+    return plate.fuse(Part.makeCylinder(10, 30)).fuse(Part.makeCylinder(10, 30, V(20 + gap, 0, 0)))
+
+
+def groove(width):
+    """A ring-shaped groove in a cylinder."""
+    ring = Part.makeCylinder(8, 20, V(0, 0, 10)).cut(Part.makeCylinder(8 - width, 20, V(0, 0, 10)))
+    return Part.makeCylinder(12, 30).cut(ring)
+
+
+def block_with_short_edge(length):
+    """The top of its front is divided by an edge of this length."""
+    low = [(0, 0, 0), (40, 0, 0), (40, 30, 0), (0, 30, 0)]
+    high = [(0, 0, 20), (20, 0, 20), (20 + length, 0, 20), (40, 0, 20), (40, 30, 20), (0, 30, 20)]
+    front = [[low[0], (10, 0, 0), high[1], high[0]], [(10, 0, 0), (30, 0, 0), high[2], high[1]]]
+    front.append([(30, 0, 0), low[1], high[3], high[2]])
+    sides = [[low[1], low[2], high[4], high[3]], [low[2], low[3], high[5], high[4]]]
+    sides += [[low[3], low[0], high[0], high[5]], high, [low[0], low[3], low[2], low[1], (30, 0, 0), (10, 0, 0)]]
+    faces = [Part.Face(Part.makePolygon([V(*p) for p in loop + loop[:1]])) for loop in front + sides]
+    shell = Part.makeShell(faces)
+    shell.sewShape()
+    return Part.Solid(shell)
+
+
+def stepped_block(step):
+    return Part.makeBox(40, 30, 20).fuse(Part.makeBox(20, 30, step, V(0, 0, 20))).removeSplitter()
+
+
+def slab_flush_with_one_side(step):
+    """A slab on a block that it overhangs a little, its side in one face with that of a wider part: that face
+    has a narrow tail."""
+    block = Part.makeBox(40, 30, 20, V(step, 0, 0)).fuse(Part.makeBox(40, 8, 20))
+    return block.fuse(Part.makeBox(40, 30, step, V(0, 0, 20))).removeSplitter()
+
+
+SWEEPS = {
+    "plate": (thin_plate, [10, 5, 2, 1, 0.5, 0.2, 0.1, 0.05]),
+    "fillet": (filleted_block, [5, 2, 1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01]),
+    "gap": (cylinders_with_gap, [1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4]),
+    "groove": (groove, [2, 1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01]),
+    "edge": (block_with_short_edge, [1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5, 1e-6]),
+}
+
+
+def volume(mesh):
+    a, b, c, d = (mesh.points[mesh.tets[:, i]] for i in range(4))
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a).sum() / 6
+
+
+def checked(shape, size=10.0, volume_error=0.03):
+    mesh = DelaunayMesher.mesh(shape, max_size=size, threads=1)
+    assert math.isclose(volume(mesh), shape.Volume, rel_tol=volume_error)
+    return mesh
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", SWEEPS)
+def test_no_part_of_the_family_fails_and_counts_grow_smoothly(name):
+    make, values = SWEEPS[name]
+    counts = []
+    for value in values:
+        mesh = checked(make(value))
+        counts.append(len(mesh.tets))
+        assert counts[-1] < 150_000, (name, value, counts)
+    for before, after in zip(counts, counts[1:]):
+        assert after < 12 * before, (name, counts)
+
+
+@pytest.mark.parametrize("step", [0.1, 0.003, 1e-5])
+def test_low_steps_cost_nothing(step):
+    """A face that is a step, or that has a tail along one, becomes an edge."""
+    for make in (stepped_block, slab_flush_with_one_side):
+        mesh = checked(make(step), size=8.0)
+        assert mesh.quality["min_dihedral"] > 15
+        assert len(mesh.tets) < 4000
+        assert any("far smaller than the elements" in warning for warning in mesh.warnings)
+
+
+def test_a_size_keeps_what_is_small():
+    shape = stepped_block(0.05)
+    face = next(i for i, f in enumerate(shape.Faces, 1) if f.Area < 2)
+    mesh = DelaunayMesher.mesh(shape, max_size=8.0, sizes={"Face%d" % face: 0.5}, threads=1)
+    assert (mesh.triangle_face == face - 1).any() or (mesh.triangle_face == face).any()
