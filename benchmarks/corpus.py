@@ -126,6 +126,30 @@ def write_table(path, rows):
         table.writerows(sorted(rows, key=lambda row: row["part"]))
 
 
+def write_markdown(path, rows):
+    """A table with one line for each part and one column for each mesher, ours first."""
+    meshers = sorted({row["mesher"] for row in rows}, key=lambda name: (not name.startswith("ours"), name))
+    found = {(row["part"], row["mesher"]): row for row in rows}
+    lines = ["| part | " + " | ".join(meshers) + " |", "| --- |" + " --- |" * len(meshers)]
+    for part in sorted({row["part"] for row in rows}):
+        cells = [cell(found.get((part, name))) for name in meshers]
+        lines.append("| %s | %s |" % (os.path.splitext(part)[0], " | ".join(cells)))
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(lines) + "\n")
+
+
+def cell(row):
+    """'elements, smallest..largest angle, seconds', or why there is no mesh."""
+    if row is None:
+        return ""
+    if str(row["ok"]) != "1" or not row.get("min_dihedral"):
+        note = row.get("note") or ""
+        return "no mesh: time" if "timeout" in note or note.startswith("over") else "no mesh"
+    thousands = int(row["tets"]) / 1000
+    angles = "%.1f..%.1f" % (float(row["min_dihedral"]), float(row["max_dihedral"]))
+    return "%.1f k, %s, %.2f s" % (thousands, angles, float(row["seconds"]))
+
+
 def summary(rows):
     """One line for each mesher: successes and quality over the parts it meshed."""
     for name in sorted({row["mesher"] for row in rows}):
@@ -149,6 +173,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folder", help="CAD files and closed triangulated surfaces")
     parser.add_argument("-o", "--output", required=True, help="the table, .csv")
+    parser.add_argument("--markdown", help="the same as a page, .md")
     parser.add_argument("--seconds", type=float, default=60, help="time limit for each part")
     parser.add_argument("--parts", nargs="+", help="only files whose name contains one of these")
     parser.add_argument("--max-size", type=float, help="the same size for all parts, mm")
@@ -171,9 +196,12 @@ def main():
         angles = "%s .. %s" % (row.get("min_dihedral", ""), row.get("max_dihedral", ""))
         print(part, row["status"], row.get("tets", ""), angles, row["wall"], row.get("note", ""), flush=True)
         meshed = {row["part"] for row in rows}
-        write_table(options.output, rows + [rival for rival in rivals if rival["part"] in meshed])
+        table = rows + [rival for rival in rivals if rival["part"] in meshed]
+        write_table(options.output, table)
+        if options.markdown:
+            write_markdown(options.markdown, table)
     print()
-    summary(rows + [rival for rival in rivals if rival["part"] in {row["part"] for row in rows}])
+    summary(table)
 
 
 main()

@@ -8,6 +8,9 @@ namespace dm {
 
 namespace {
 
+// Distance between the sheets over the wanted edge length, below which images are made; above it, points that
+// do not face each other make better elements.
+constexpr double kThin = 0.25;
 constexpr double kSnap = 0.45;      // farther than this over the same length, a new point is made
 constexpr double kFacing = -0.9;    // cosine between the normals of sheets that face each other
 constexpr double kAligned = 1e-3;   // a misalignment, over the distance, that does no harm
@@ -118,6 +121,7 @@ class LayerMatcher {
     const Vec3 area = area_of(t), n = normalized(area);
     const Vec3 &p = at(point), &a = at(t[0]);
     foot = p - dot(p - a, n) * n;
+    if (distance(p, foot) > kThin * edge_size(p)) return false;
     for (int i = 0; i < 3; ++i)
       if (dot(area, area_vector(at(t[i]), at(t[(i + 1) % 3]), foot)) < 0) return false;
     const auto fan = complex_.triangles_at(point);

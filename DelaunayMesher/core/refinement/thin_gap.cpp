@@ -7,6 +7,7 @@ namespace dm {
 namespace {
 
 constexpr double kThin = 0.5;      // gap over edge below which the gap decides the angles
+constexpr double kThinWall = 0.25;  // the same of a wall; those that the size field resolves are thicker
 constexpr double kOpposed = -0.9;  // cosine between the normals of a wall's sides
 constexpr double kLong = 2;  // edge over the wanted one from which on the tetrahedron is refined all the same
 
@@ -41,7 +42,7 @@ bool ThinGaps::holds(Index tet, double edge) const {
          it != pairs_.end() && (*it)[0] == f; ++it)
       if (spans(v, *it, kThin * edge)) return true;
   }
-  return in_wall(v, kThin * edge);
+  return in_wall(v, kThinWall * edge);
 }
 
 // Between faces at two of the corners that are about parallel, and close to each other?
