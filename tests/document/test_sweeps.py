@@ -73,7 +73,7 @@ SWEEPS = {
     "gap": (cylinders_with_gap, [1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4]),
     "groove": (groove, [2, 1, 0.5, 0.2, 0.1, 0.05]),
     "edge": (block_with_short_edge, [1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5]),
-    "ridge": (roof_with_flat_ridge, [5, 1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5, 1e-6]),
+    "ridge": (roof_with_flat_ridge, [5, 1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5]),
 }
 
 
