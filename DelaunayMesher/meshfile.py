@@ -46,8 +46,7 @@ def to_meshio(mesh):
     """
     meshio = import_meshio()
     second = mesh.order == 2
-    tets = np.asarray(mesh.tets, dtype=np.int64)
-    triangles = np.asarray(mesh.triangles, dtype=np.int64)
+    tets, triangles = np.asarray(mesh.tets), np.asarray(mesh.triangles)
     cells = [("tetra10" if second else "tetra", tets), ("triangle6" if second else "triangle", triangles)]
     data = {
         "solid": [np.asarray(mesh.tet_solid, np.int32), np.zeros(len(triangles), np.int32)],
@@ -92,6 +91,8 @@ def write_with_meshio(path, mesh):
         meshio.write(path, mesh)
     elif ending == ".xdmf":
         meshio.write(path, mesh, data_format="XML")  # one file, and no need of h5py
+    elif ending == ".vtu":
+        meshio.write(path, mesh, compression=None)  # compressing takes longer than meshing
     else:
         meshio.write(path, mesh)
 
