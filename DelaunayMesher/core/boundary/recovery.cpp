@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "boundary/layers.h"
 #include "boundary/partition.h"
+#include "surfaces/defects.h"
 
 namespace dm {
 
@@ -389,8 +390,10 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
   std::vector<Index> missing = label_faces(mesh);
   std::vector<char> fixed;
   for (int round = 0; round < kLayerRounds && !missing.empty(); ++round) {
-    const Index matched = match_layers(surface, plc, geometry, size, missing, fixed);
-    if (matched == 0) break;
+    SurfaceMesh matching = surface;
+    const Index matched = match_layers(matching, plc, geometry, size, missing, fixed);
+    if (matched == 0 || has_repeated_points(matching)) break;
+    surface = std::move(matching);
     report.layer_points += matched;
     mesh = triangulate(surface, plc, context);
     missing = label_faces(mesh);

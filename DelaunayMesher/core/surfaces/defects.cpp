@@ -150,6 +150,8 @@ std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthF
   return found;
 }
 
+bool has_repeated_points(const SurfaceMesh& mesh) { return !triangles_at_repeated_points(mesh).empty(); }
+
 std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const LengthField& lengths) {
   return NarrowPlaces(mesh, lengths).run();
 }

@@ -16,9 +16,12 @@ struct Defect {
   Index face = -1, other = -1;  // other: a face it crosses, itself first
 };
 
-// Triangles that cross another one (every one of them, with half the length wanted there).
-// Cost: find_crossings.
+// Triangles that cross another one (every one of them, with half the length wanted there), and those at
+// points that lie on the same place. Cost: find_crossings.
 std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths);
+
+// Do two points of the mesh coincide?
+bool has_repeated_points(const SurfaceMesh& mesh);
 
 // Triangles with an angle under 20 degrees between curves closer together than the wanted length, or beside
 // a short CAD edge.  Not where the curves themselves meet at such an angle, nor below an eighth of the length

@@ -17,7 +17,8 @@ namespace dm {
 namespace {
 
 constexpr int kLastAttempt = 4;  // to sample the curves anew before all their old points are kept
-constexpr int kLastRound = 6;
+constexpr int kLastRound = 4;
+constexpr int kRescueRounds = 2;  // more, where points coincide, which no later stage can do with
 constexpr int kNarrowRounds = 2;  // that look for narrow strips
 constexpr int kCapRounds = 2;  // of smaller lengths where two faces cross, before the tessellation is taken
 constexpr double kKeepRadius = 3;     // round a crossing, over half the wanted length
@@ -52,7 +53,7 @@ class SurfaceMesher {
   SurfaceMesh run() {
     context_.begin("curves");
     find_floors();
-    for (int attempt = 1, round = 1;; ++round) {
+    for (int attempt = 1, round = 1, last = kLastRound;; ++round) {
       resample(round == 1);
       if (round == 1) context_.begin("surfaces");
       remesh_faces();
@@ -62,7 +63,10 @@ class SurfaceMesher {
       }
       separate_faces();
       SurfaceMesh mesh = assemble();
-      if (round >= kLastRound || !demand_repairs(mesh, round)) return mesh;
+      if (round >= kLastRound && last == kLastRound && has_repeated_points(mesh))
+        last = round + kRescueRounds;
+      if (round >= last) return mesh;
+      if (!demand_repairs(mesh, round)) return mesh;
     }
   }
 
