@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "base/random.h"
-#include "refinement/thin_gap.h"
 #include "refinement/angle_test.h"
 #include "refinement/boundary_flip.h"
 #include "refinement/boundary_site.h"
 #include "refinement/constrained_cavity.h"
+#include "refinement/thin_gap.h"
 
 namespace dm {
 
@@ -20,6 +20,7 @@ constexpr int kTries = 40;
 constexpr double kSlack = 1.15;      // circumradius over the bound up to which good tetrahedra stay
 constexpr std::size_t kAhead = 6;    // tetrahedra in work whose data is asked for
 constexpr int kEncroachedTries = 3;  // consecutive refusals by the boundary before it is split
+constexpr int kHopeless = 10;        // sites on a triangle without one that may be, after which there is none
 constexpr double kFirstPick = 0.1, kPickStep = 0.03, kLargestPick = 0.6;  // f_k of a site inside
 constexpr double kSliverFirstPick = 0.3, kSliverLargestPick = 0.95;
 constexpr double kLargestSurfacePick = 0.5;
@@ -320,17 +321,20 @@ class Refinement {
     const Sphere circle = circumcircle(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
     const double radius = std::sqrt(circle.radius2);
     if (!(radius >= kTriangleFloor * edge_size(circle.centre)) || !std::isfinite(radius)) return false;
-    if (static_cast<Index>(unsplittable_.size()) <= t) unsplittable_.resize(mesh_.boundary.slot_count(), 0);
-    if (unsplittable_[t]) return false;
+    if (static_cast<Index>(failures_.size()) <= t) failures_.resize(mesh_.boundary.slot_count());
+    if (failures_[t].stands(acceptable_, round_)) return false;
+    const Face own = find_face(tets_, q[0], q[1], q[2]);
+    if (own < 0) return false;
+    const Index near = own / 4;
     const Index face = mesh_.boundary.face(t);
     double best = kRejected;
     Vec3 best_site;
     segments_.clear();
-    for (int k = 0; k < kTries; ++k) {
+    for (int k = 0; k < kTries && (k < kHopeless || best < kRejected); ++k) {
       Random random(context_.seed, q[0], q[1], q[2], k, 3);
       const double f = std::min(kLargestSurfacePick, kFirstPick + kPickStep * k);
       const Vec3 site = geometry_.project_to_face(face, circle.centre + (f * radius) * random.in_ball());
-      const SiteVerdict verdict = boundary_site_.propose(site, hint, t, -1, -1);
+      const SiteVerdict verdict = boundary_site_.propose(site, near, t, -1, -1);
       if (verdict == SiteVerdict::segment) {
         remember_segment(boundary_site_.swallowed_segment());
         if (k >= kEncroachedTries && best == kRejected) break;
@@ -339,10 +343,10 @@ class Refinement {
       if (boundary_site_.quality() <= target_) return commit_boundary(report_.triangle_splits);
       if (boundary_site_.quality() < best) best = boundary_site_.quality(), best_site = site;
     }
-    if (best < acceptable_ && boundary_site_.propose(best_site, hint, t, -1, -1) == SiteVerdict::ok)
+    if (best < acceptable_ && boundary_site_.propose(best_site, near, t, -1, -1) == SiteVerdict::ok)
       return commit_boundary(report_.triangle_splits);
     if (split_any_segment(hint)) return true;
-    unsplittable_[t] = !sliver_mode_;
+    failures_[t] = {best, round_};
     return false;
   }
 
@@ -384,6 +388,16 @@ class Refinement {
     return true;
   }
 
+  // The best sharpness that splitting a labelled triangle could have reached, and when that was not enough.
+  // It is tried again in a later round of slivers, but not by all the tetrahedra round it in the same one.
+  struct SplitFailure {
+    double best = 0;
+    int round = -1;
+    bool stands(double acceptable, int now) const {
+      return (round == now || round == 0) && best >= acceptable;
+    }
+  };
+
   LabelledTriangulation& mesh_;
   Triangulation& tets_;
   const Geometry& geometry_;
@@ -401,7 +415,7 @@ class Refinement {
   double expected_sites_;
   bool sliver_mode_ = false, constrained_ = false;
   int round_ = 0;
-  std::vector<char> unsplittable_;  // per labelled triangle: splitting it has failed before
+  std::vector<SplitFailure> failures_;  // of labelled triangles
   std::uint64_t steps_ = 0;
   Cavity cavity_;
   std::vector<Index> work_, next_, tried_;   // tried_: in the last round of slivers
