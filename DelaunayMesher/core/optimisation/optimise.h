@@ -23,7 +23,7 @@ struct OptimiseOptions {
 };
 struct OptimiseReport {
   double min_before = 0, min_after = 0, max_before = 0, max_after = 0;  // degrees
-  std::int64_t smoothed = 0, flipped = 0, collapsed = 0, inserted = 0;
+  std::int64_t smoothed = 0, flipped = 0, collapsed = 0;
 };
 
 // Interior points move freely, points on a CAD face or edge slide on it, CAD vertices stay.  The boundary

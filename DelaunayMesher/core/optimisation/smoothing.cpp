@@ -70,6 +70,16 @@ bool Smoother::attempt(Index v, const Vec3& p) {
   return true;
 }
 
+// Towards the mean of the neighbours, each counted once for every tetrahedron it shares with v: one or two
+// evaluations, and neighbouring points move together, which single gradient steps need many sweeps for.
+bool Smoother::centre(Index v) {
+  Vec3 sum;
+  for (int k = 0; k < fan_.count; ++k)
+    for (int i = 0; i < 9; ++i) sum[i % 3] += fan_.corner[i][k];
+  const Vec3 from = place_, step = (1.0 / (3 * fan_.count)) * sum;
+  return attempt(v, from + step) || attempt(v, from + 0.5 * step);
+}
+
 bool Smoother::descend(Index v) {
   const Entity entity = mesh_.entity(v);
   Vec3 direction = -gradient();
@@ -96,9 +106,9 @@ bool Smoother::descend(Index v) {
 bool Smoother::smooth(Index v, bool soft, int steps) {
   if (!load(v, soft)) return false;
   stride_ = 0.12;
-  int done = 0;
-  while (done < steps && descend(v)) ++done;
-  if (done == 0) return false;
+  bool moved = soft && mesh_.interior(v) && centre(v);
+  for (int i = 0; i < steps && descend(v); ++i) moved = true;
+  if (!moved) return false;
   mesh_.set_point(v, place_);
   for (int k = 0; k < fan_.count; ++k) mesh_.set_bad(tets_[k], bad_[k]);
   return true;

@@ -3,7 +3,8 @@
 // The objective of a star is the sum of badness^p of its tetrahedra: p = 2 raises the average angle, p = 16
 // nearly only the worst one (a smooth form of the active set of Freitag, Ollivier-Gooch 1997).  A step goes
 // along the negative gradient, taken by differences since an evaluation is cheap (fan.h), with a line search
-// that doubles or halves.  Boundary points are put back on their CAD face or edge.
+// that doubles or halves.  With p = 2 an interior point first tries the mean of its neighbours.
+// Boundary points are put back on their CAD face or edge.
 // Guard: the objective falls, keeps_angles() (quality.h) holds, boundary triangles keep their side.
 // Cost: about 1 us per vertex and step.
 #pragma once
@@ -26,6 +27,7 @@ class Smoother {
   bool smooth(Index v, bool soft, int steps);
   bool load(Index v, bool soft);
   bool attempt(Index v, const Vec3& p);
+  bool centre(Index v);
   bool descend(Index v);
   Vec3 gradient() const;
   bool keeps_boundary(Index v, const Vec3& p) const;

@@ -64,6 +64,16 @@ TEST_CASE("an interior point goes back to the middle of its star") {
   check_volume_mesh(s.mesh);
 }
 
+TEST_CASE("one soft step takes an interior point all the way to the middle of its neighbours") {
+  auto s = sample::box(2, 0);
+  const Geometry geometry(s.plc, s.records);
+  s.mesh.points[13] = {1.3, 0.7, 1.3};
+  EditMesh edit(s.mesh);
+  Smoother smoother(edit, geometry);
+  CHECK(smoother.smooth_soft(13, 1));
+  CHECK(distance(edit.point(13), {1, 1, 1}) < 0.1);
+}
+
 TEST_CASE("smoothing never lowers the worst of a star and keeps points on their CAD elements") {
   auto s = sample::box(4, 0.3, 11);
   const Geometry geometry(s.plc, s.records);
