@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/random.h"
 #include "boundary/layers.h"
@@ -352,6 +353,19 @@ class Recovery {
   Cavity cavity_;
 };
 
+// Do shared faces connect all solids?
+bool is_connected(const Plc& plc) {
+  std::vector<Index> group(plc.solid_count + 1);
+  std::iota(group.begin(), group.end(), 0);
+  Index groups = plc.solid_count;
+  for (const auto& [behind, front] : plc.face_solids) {
+    if (behind == 0 || front == 0 || group[behind] == group[front]) continue;
+    std::replace(group.begin(), group.end(), Index{group[front]}, Index{group[behind]});
+    --groups;
+  }
+  return groups <= 1;
+}
+
 LabelledTriangulation triangulate(const SurfaceMesh& surface, const Plc& plc, Context& context) {
   LabelledTriangulation mesh{Triangulation(surface.points, context.threads),
                              BoundaryComplex(surface, plc.face_solids)};
@@ -400,8 +414,9 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
   }
   missing = Recovery(mesh, geometry, size, context, report).run(std::move(missing));
   if (!missing.empty() || !tag_solids(mesh)) report.replaced = partition_solids(mesh, missing);
-  // Touching solids whose faces do not match: the caller can mesh them apart.
-  if (plc.solid_count > 1 && report.replaced > kMostReplaced * static_cast<double>(surface.triangles.size()))
+  // Touching solids whose faces do not match: the caller can mesh them apart, unless shared faces connect
+  // them.
+  if (!is_connected(plc) && report.replaced > kMostReplaced * static_cast<double>(surface.triangles.size()))
     throw Failure("boundary", "leak",
                   "faces of different solids overlap or cross each other: " +
                       std::to_string(report.replaced) + " boundary triangles are affected");

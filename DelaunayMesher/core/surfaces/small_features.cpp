@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
+constexpr double kPart = 0.6;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 
@@ -264,7 +265,8 @@ class Finder {
       std::set<std::pair<Index, Index>> pairs;
       std::vector<Index> stack{*left.begin()};
       left.erase(left.begin());
-      while (!stack.empty()) {
+      std::size_t triangles = 0;
+      for (; !stack.empty(); ++triangles) {
         const Index t = stack.back();
         stack.pop_back();
         for (int i = 0; i < 3; ++i) {
@@ -275,10 +277,17 @@ class Finder {
           stack.push_back(beside->second);
         }
       }
+      SmallFeature feature(pairs.begin(), pairs.end());
       // One side across closes no strip: it would only move the tip of a wedge.
-      if (pairs.size() > 1 || segment(pairs.begin()->first, pairs.begin()->second) >= 0)
-        found_.emplace_back(pairs.begin(), pairs.end());
+      const bool edge = feature.size() == 1 && segment(feature[0].first, feature[0].second) >= 0;
+      if (edge || (feature.size() > 1 && (triangles == by_face_[face].size() || is_narrow(feature))))
+        found_.push_back(std::move(feature));
     }
+  }
+
+  // Part of a face ends where it is as wide as the tolerance; the step that this leaves must be worth it.
+  bool is_narrow(const SmallFeature& feature) const {
+    return width(feature) < kPart * tolerance_(at(feature[0].first));
   }
 
   Plc& plc_;
