@@ -33,6 +33,7 @@ struct MeshResult {
   std::vector<std::string> warnings;
 };
 
-MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOptions& options, Context& context);
+MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOptions& options,
+                     Context& context);
 
 }  // namespace dm

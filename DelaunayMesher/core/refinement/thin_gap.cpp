@@ -6,9 +6,9 @@ namespace dm {
 
 namespace {
 
-constexpr double kThin = 0.5;      // gap over edge below which the gap decides the angles
+constexpr double kThin = 0.5;       // gap over edge below which the gap decides the angles
 constexpr double kThinWall = 0.25;  // the same of a wall; those that the size field resolves are thicker
-constexpr double kOpposed = -0.9;  // cosine between the normals of a wall's sides
+constexpr double kOpposed = -0.9;   // cosine between the normals of a wall's sides
 constexpr double kLong = 2;  // edge over the wanted one from which on the tetrahedron is refined all the same
 
 }  // namespace

@@ -90,9 +90,9 @@ TEST_CASE("triangles that overlap in a common plane cross") {
 TEST_CASE("contacts are no crossings") {
   const std::vector<Vec3> points{{0, 0, 0},     {2, 0, 0}, {0, 2, 0}, {0, 0, 1},
                                  {0.5, 0.5, 0}, {1, 1, 1}, {0, 1, 1}};
-  CHECK(find_crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());      // a common edge
-  CHECK(find_crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());      // a common corner
-  CHECK(find_crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());      // a corner in the other's inside
+  CHECK(find_crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());  // a common edge
+  CHECK(find_crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());  // a common corner
+  CHECK(find_crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());  // a corner in the other's inside
   const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0},  {0, 1, 0},
                                  {2, 0, 0}, {2, 1, 0}, {0.5, 0, 0}};
   CHECK(
