@@ -7,7 +7,7 @@
 // largest no larger than before, unless within 30..136 degrees; every boundary point lies on its CAD element;
 // no interior triangle has its corners on one CAD face that did not have them before.
 // The mesh is renumbered (spatial_order.h).  Deterministic: one pass in index order.  Cost: 1 to 1.5 us per
-// tetrahedron. Limits: the boundary triangulation keeps its connectivity, so an element pinned between
+// tetrahedron. Limits: no point is inserted and no boundary point removed, so an element pinned between
 // boundary triangles with bad angles, or at an acute edge, stays as it is.
 #pragma once
 
