@@ -23,8 +23,8 @@ def run(source, options=None, report=None, keep=()):
     """Mesh of a Part shape, a Plc, a surface (points, triangles) or a file name.
 
     options: MeshOptions, dict or None. report: callable (stage, fraction in 0..1) called now and then from
-    this thread; False cancels. keep: names of seams and smooth vertices of a Part shape that shall be
-    features. Raises MeshError, InputError (wrong options, unreadable file) or
+    this thread; False cancels. keep: names of elements of a Part shape that stay (document.convert).
+    Raises MeshError, InputError (wrong options, unreadable file) or
     MeshCancelled.
     """
     core = extension.load()

@@ -41,6 +41,8 @@ class Plc:
     warnings: List[str] = field(default_factory=list)
     solid_numbers: Any = None  # of some solids of a part only: their numbers there (1-based)
     cad_solid_count: int = 0  # and how many there are
+    kept_faces: Any = ()  # that loads or groups refer to: never absorbed, however small
+    kept_edges: Any = ()
 
     _SHAPES = (
         ("points", np.float64, (-1, 3)),
@@ -51,6 +53,8 @@ class Plc:
         ("corners", np.int32, (-1,)),
         ("corner_vertex", np.int32, (-1,)),
         ("face_solids", np.int32, (-1, 2)),
+        ("kept_faces", np.int32, (-1,)),
+        ("kept_edges", np.int32, (-1,)),
     )
 
     def __post_init__(self):
@@ -86,6 +90,8 @@ class Plc:
             ("segment_edge", self.edge_count),
             ("corner_vertex", self.vertex_count),
             ("face_solids", self.solid_count + 1),
+            ("kept_faces", len(self.face_solids)),
+            ("kept_edges", self.edge_count),
         )
         for name, count in ranges:
             array = getattr(self, name)

@@ -102,6 +102,8 @@ Plc read_plc(const nb::dict& plc) {
   result.edge_count = get<Index>(plc, "edge_count");
   result.vertex_count = get<Index>(plc, "vertex_count");
   result.solid_count = get<Index>(plc, "solid_count");
+  result.kept_faces = get_values<Index>(plc, "kept_faces");
+  result.kept_edges = get_values<Index>(plc, "kept_edges");
   require_length(result.triangle_face.size(), result.triangles.size(), "triangle_face");
   require_length(result.segment_edge.size(), result.segments.size(), "segment_edge");
   require_length(result.corner_vertex.size(), result.corners.size(), "corner_vertex");

@@ -154,7 +154,7 @@ def analysis_of(target):
 
 
 def collect(target, **extra):
-    """(shape, options, names of seams to keep, groups, warnings) for a run of the mesh object."""
+    """(shape, options, names of elements to keep, groups, warnings) for a run of the mesh object."""
     part = target.Shape
     if part is None:
         raise InputError("options", "no_part", "%s is not linked to a part" % target.Label)
@@ -189,7 +189,7 @@ def run(target, report=None, **extra):
 
 
 def mesh_shape(shape, options, report=None, keep=()):
-    """Mesh of a Part shape (pipeline.run); keep: names of seams and smooth vertices to keep."""
+    """Mesh of a Part shape (pipeline.run); keep: names of elements that stay."""
     from .. import pipeline
 
     return pipeline.run(shape, options, report, keep)

@@ -41,7 +41,8 @@ def convert(shape, options=None, keep=()):
     """ShapePlc of a Part shape.
 
     options: a MeshOptions (max_size, elements_per_circle and the names in sizes are used) or None.
-    keep: names of seam edges and smooth vertices ('Edge3', 'Vertex1') that shall stay features.
+    keep: names of elements ('Edge3', 'Vertex1') that stay: seams and smooth vertices become features,
+    tiny faces and edges are not absorbed.
     """
     check_solid(shape)
     keep = set(keep) | set(getattr(options, "sizes", None) or ())

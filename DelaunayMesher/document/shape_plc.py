@@ -30,8 +30,8 @@ class ShapePlc:
     """The PLCs of a shape, in `plcs`; `aliases`: CAD elements whose triangles another element carries."""
 
     def __init__(self, mesh, sides, keep, warnings):
-        """mesh: a Tessellation that encloses its solids; sides (F, 2); keep: names of seams that stay."""
-        self.mesh, self.sides = mesh, sides
+        """mesh: a Tessellation that encloses its solids; sides (F, 2); keep: names of elements that stay."""
+        self.mesh, self.sides, self.keep = mesh, sides, keep
         self.contacts = find_contacts(mesh, sides)
         self.geometry = Geometry(mesh, keep)
         self._aliases = {}
@@ -111,6 +111,8 @@ class ShapePlc:
             geometry=geometry.of(triangle_face, segment_edge),
             solid_numbers=np.array(solids),
             cad_solid_count=len(mesh.shape.Solids),
+            kept_faces=indices_of(self.keep, "Face", len(mesh.faces)),
+            kept_edges=indices_of(self.keep, "Edge", len(mesh.edges)),
         )
         return drop_unused_points(plc)
 
@@ -155,6 +157,12 @@ def only(kinds, spline, records, used):
     numbers = np.unique(wanted[wanted >= 0])
     renumbered = np.where(wanted >= 0, np.searchsorted(numbers, wanted), -1).astype(np.int32)
     return kinds, renumbered, [records[number] for number in numbers.tolist()]
+
+
+def indices_of(names, kind, count):
+    """0-based numbers of the elements of a kind among some names ('Face3', 'Edge1')."""
+    wanted = set(names)
+    return [number for number in range(count) if "%s%d" % (kind, number + 1) in wanted]
 
 
 def apart_warning(touching):

@@ -12,6 +12,7 @@ from scipy.interpolate import BSpline
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.edge_geometry import CIRCLE, LINE, circle_distances
 from DelaunayMesher.document.face_geometry import CONE, CYLINDER, PLANE, SPHERE, SPLINE, TORUS, distances
+from DelaunayMesher.document.mesh_object import mesh_shape
 from DelaunayMesher.document.plc_from_shape import convert, plc_from_shape
 from DelaunayMesher.document.touching import segments_on_triangles
 from DelaunayMesher.errors import MeshError
@@ -292,6 +293,17 @@ def test_solids_are_taken_apart_on_demand():
         check_closed(plc)
         assert volumes(plc) == pytest.approx([1000])
         assert converted.apart(plc) == []
+
+
+def test_a_tiny_face_that_a_load_refers_to_is_meshed():
+    low = Part.makeBox(10, 10, 5).fuse(Part.makeBox(10, 5, 0.02, Vector(0, 0, 5)))
+    shape = low.removeSplitter()
+    step = next(number for number, face in enumerate(shape.Faces) if abs(face.Area - 0.2) < 1e-9)
+    options = MeshOptions(max_size=2.0)
+    assert step not in mesh_shape(shape, options).triangle_face
+    kept = mesh_shape(shape, options, keep=["Face%d" % (step + 1)])
+    assert step in kept.triangle_face
+    assert convert(shape, options, ["Face%d" % (step + 1)]).plc.kept_faces.tolist() == [step]
 
 
 def test_an_inside_out_solid_is_turned_round():

@@ -22,6 +22,8 @@ struct Plc {
   // Per CAD face the solids {behind, in front of} its triangles' right-hand normal; 0 = outside, 1-based.
   std::vector<std::array<Index, 2>> face_solids;
   Index edge_count = 0, vertex_count = 0, solid_count = 0;
+  // CAD faces and edges that loads or groups refer to: never absorbed, however small (surfaces/absorb.h).
+  std::vector<Index> kept_faces, kept_edges;
 };
 
 // Throws Failure("plc", code, ...) naming face and place at the first defect.  Codes: bad_arrays, empty,

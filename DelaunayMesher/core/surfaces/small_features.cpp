@@ -16,7 +16,16 @@ constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 class Finder {
  public:
   Finder(Plc& plc, const Geometry& geometry, const Tolerance& tolerance)
-      : plc_(plc), geometry_(geometry), tolerance_(tolerance), table_(plc) {}
+      : plc_(plc),
+        geometry_(geometry),
+        tolerance_(tolerance),
+        table_(plc),
+        kept_face_(plc.face_solids.size(), 0),
+        kept_edge_(plc.edge_count, 0) {
+    for (const Index f : plc.kept_faces) kept_face_[f] = 1;
+    for (const Index e : plc.kept_edges) kept_edge_[e] = 1;
+    if (!plc.kept_faces.empty()) keep_outlines();
+  }
 
   std::vector<SmallFeature> run() {
     collect_edges();
@@ -30,6 +39,15 @@ class Finder {
 
  private:
   const Vec3& at(Index p) const { return plc_.points[p]; }
+
+  // A face stays only if its edges do.
+  void keep_outlines() {
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (int i = 0; kept_face_[plc_.triangle_face[t]] && i < 3; ++i) {
+        const Index s = table_.find(plc_.triangles[t][i], plc_.triangles[t][(i + 1) % 3]);
+        if (s >= 0) kept_edge_[plc_.segment_edge[s]] = 1;
+      }
+  }
 
   double width(const SmallFeature& feature) const {
     double most = 0;
@@ -67,6 +85,9 @@ class Finder {
   }
   bool tiny_edge(Index e) const { return ends_[e].size() == 2 && length_[e] < tolerance_(at(ends_[e][0])); }
   bool on_curve(Index p) const { return !edges_of_[p].empty(); }
+  bool on_kept_curve(Index p) const {
+    return std::any_of(edges_of_[p].begin(), edges_of_[p].end(), [&](Index e) { return kept_edge_[e]; });
+  }
   bool share_edge(Index p, Index q) const {
     for (const Index e : edges_of_[p])
       if (std::find(edges_of_[q].begin(), edges_of_[q].end(), e) != edges_of_[q].end()) return true;
@@ -76,6 +97,7 @@ class Finder {
   // A side that would vanish: a tiny edge, or across the face from one curve to another.
   bool is_short(Index a, Index b) const {
     if (!on_curve(a) || !on_curve(b) || !(distance(at(a), at(b)) < tolerance_(at(a)))) return false;
+    if (on_kept_curve(a) || on_kept_curve(b)) return false;
     const Index s = segment(a, b);
     return s >= 0 ? tiny_edge(plc_.segment_edge[s]) : !share_edge(a, b);
   }
@@ -90,6 +112,7 @@ class Finder {
     const Index s = segment(a, b);
     if (s < 0) return false;
     const Index edge = plc_.segment_edge[s];
+    if (kept_edge_[edge] || on_kept_curve(p)) return false;
     if (std::find(edges_of_[p].begin(), edges_of_[p].end(), edge) != edges_of_[p].end()) return false;
     place = geometry_.project_to_edge(edge, at(a) + t * along);
     const double w = distance(place, at(p));
@@ -113,7 +136,7 @@ class Finder {
     }
     std::vector<Index> faces;
     for (std::size_t f = 0; f < found.size(); ++f)
-      if (found[f]) faces.push_back(static_cast<Index>(f));
+      if (found[f] && !kept_face_[f]) faces.push_back(static_cast<Index>(f));
     return faces;
   }
 
@@ -294,6 +317,7 @@ class Finder {
   const Geometry& geometry_;
   const Tolerance& tolerance_;
   const SegmentTable table_;
+  std::vector<char> kept_face_, kept_edge_;
   std::map<std::pair<Index, Index>, Index> divided_;  // segments that table_ does not know
   std::vector<double> length_;                        // by edge, as its ends
   std::vector<std::vector<Index>> ends_;

@@ -149,6 +149,18 @@ TEST_CASE("a step that elements can show stays, and so does one with a size of i
   CHECK(Result(stepped_block(0.05), 4).absorbed.any());
 }
 
+TEST_CASE("a face or an edge that a load refers to stays") {
+  Shape step = stepped_block(0.05);
+  const std::vector<Index> gone = Result(step, 4).absorbed.edges;
+  REQUIRE(!gone.empty());
+  step.plc.kept_faces = {0};
+  CHECK_FALSE(Result(step, 4).absorbed.any());
+  step.plc.kept_faces.clear();
+  step.plc.kept_edges = {gone[0]};
+  const std::vector<Index> now = Result(step, 4).absorbed.edges;
+  CHECK(std::find(now.begin(), now.end(), gone[0]) == now.end());
+}
+
 TEST_CASE("a step exactly as small as rounding is absorbed") {
   const Result r(stepped_block(1e-7), 4);
   CHECK(r.absorbed.faces == std::vector<Index>{0});
