@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
-constexpr double kPart = 0.6;    // largest width of a narrow part of a face, over the tolerance
+constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 
