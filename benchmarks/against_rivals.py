@@ -196,4 +196,5 @@ def main():
     print_table(options)
 
 
-main()
+if __name__ == "__main__":
+    main()

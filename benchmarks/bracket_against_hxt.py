@@ -18,6 +18,8 @@ import subprocess
 import sys
 import time
 
+from against_rivals import run_hxt
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, ROOT)
 PART = os.path.join(ROOT, "resources", "examples", "bracket.step")
@@ -48,33 +50,6 @@ def run_ours(size, optimise):
     )
 
 
-def run_hxt(size):
-    """The same of Gmsh with its HXT algorithm and the same size settings."""
-    import gmsh
-    import numpy as np
-
-    gmsh.initialize()
-    settings = {
-        "General.Terminal": 0,
-        "General.NumThreads": 1,
-        "Mesh.MeshSizeMax": size,
-        "Mesh.MeshSizeFromCurvature": PER_CIRCLE,
-        "Mesh.Algorithm3D": 10,
-    }
-    for name, value in settings.items():
-        gmsh.option.setNumber(name, value)
-    gmsh.model.occ.importShapes(PART)
-    gmsh.model.occ.synchronize()
-    start = time.perf_counter(), time.process_time()
-    gmsh.model.mesh.generate(3)
-    wall, processor = time.perf_counter() - start[0], time.process_time() - start[1]
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    index = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-    index[tags.astype(np.int64)] = np.arange(len(tags))
-    tets = index[gmsh.model.mesh.getElementsByType(4)[1].astype(np.int64)].reshape(-1, 4)
-    return coordinates.reshape(-1, 3), tets, wall, processor, {}
-
-
 def run_one(mesher, size):
     """Runs one mesher in this process and prints one line of JSON."""
     import numpy as np
@@ -82,7 +57,7 @@ def run_one(mesher, size):
     from DelaunayMesher import quality
 
     if mesher in (HXT, HXT_FINER):
-        run = run_hxt(size * (FINER if mesher == HXT_FINER else 1))
+        run = (*run_hxt(PART, size * (FINER if mesher == HXT_FINER else 1)), {})
     else:
         run = run_ours(size, optimise=mesher == "ours")
     points, tets, wall, processor, stages = run

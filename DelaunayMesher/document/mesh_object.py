@@ -16,6 +16,7 @@ from .femmesh import fem_mesh
 from .placement import own_shape, shape_to_mesh
 from .properties import add_option_properties, get_options, set_options
 from .size_region import add_size_region, regions_of
+from .stateless import Stateless
 
 TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")  # from FreeCAD 1.0; before
 LINK_LISTS = {
@@ -28,7 +29,7 @@ LINK_LISTS = {
 LARGEST_LIST = 200  # entries of a list kept in the stored report
 
 
-class MeshDelaunay:
+class MeshDelaunay(Stateless):
     """Proxy of the document object."""
 
     Type = "Fem::FemMeshDelaunay"
@@ -43,15 +44,6 @@ class MeshDelaunay:
 
     def execute(self, target):
         """Recomputing does not mesh: that is run()'s job."""
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    __getstate__ = dumps
-    __setstate__ = loads
 
 
 def add_properties(target):

@@ -8,6 +8,7 @@ import FreeCAD
 
 from ..errors import InputError
 from ..sizing import Region
+from .stateless import Stateless
 
 KINDS = {"Sphere": "ball", "Box": "box", "Cylinder": "cylinder"}
 PROPERTIES = (  # name, type, help
@@ -29,7 +30,7 @@ USED = {  # properties that mean something
 }
 
 
-class SizeRegion:
+class SizeRegion(Stateless):
     """Proxy of the document object."""
 
     Type = "Fem::MeshSizeRegion"
@@ -48,15 +49,6 @@ class SizeRegion:
 
     def execute(self, target):
         """Nothing is computed: the mesher asks for region_of()."""
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    __getstate__ = dumps
-    __setstate__ = loads
 
 
 def add_size_region(mesh, region, name="SizeRegion"):

@@ -5,6 +5,7 @@ The class has to stay at the top of this module: saved documents find it by its 
 
 import FreeCADGui
 
+from ..document.stateless import Stateless
 from .texts import icon, tr
 
 CHILD_LISTS = {
@@ -16,7 +17,7 @@ CHILD_LISTS = {
 OTHER_REFINEMENTS = ("MeshRefinementList", "MeshRegionList")  # of later FreeCAD: distance, shape, ...
 
 
-class VPMeshDelaunay:
+class VPMeshDelaunay(Stateless):
     """View provider proxy: icon, panel on double click, refinements and groups as children."""
 
     def __init__(self, view):
@@ -113,15 +114,6 @@ class VPMeshDelaunay:
         name = list_name(self.Object, item)
         if name and item not in getattr(self.Object, name):
             setattr(self.Object, name, getattr(self.Object, name) + [item])
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    __getstate__ = dumps
-    __setstate__ = loads
 
 
 def open_panel(target):

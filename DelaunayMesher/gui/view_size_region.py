@@ -6,6 +6,7 @@ The class has to stay at the top of this module: saved documents find it by its 
 import FreeCAD
 import FreeCADGui
 
+from ..document.stateless import Stateless
 from .texts import icon
 
 COLOUR = (1.0, 0.55, 0.0)
@@ -14,7 +15,7 @@ MODE = "Shaded"
 THINNEST = 1e-6  # mm; the shapes of the view must not be flat
 
 
-class VPSizeRegion:
+class VPSizeRegion(Stateless):
     """View provider proxy: the shape in the view, a panel on double click."""
 
     def __init__(self, view):
@@ -94,12 +95,3 @@ class VPSizeRegion:
         if not start_mesh.panel_is_open():
             FreeCADGui.getDocument(view.Object.Document.Name).setEdit(view.Object.Name)
         return True
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    __getstate__ = dumps
-    __setstate__ = loads
