@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t kNear = 256;  // tetrahedra looked at by conflict_near
 
+// After so many tetrahedra in cavities that were none (some seconds), only small ones are tried: where the
+// boundary crosses itself there may be no end of large ones.
+constexpr std::size_t kPatience = 20'000'000, kSmall = 200;
+
 bool sees(const Triangulation& tets, const Vec3& p, Face f) {
   const Tet& v = tets.corners(f / 4);
   const auto& q = kFaceCorners[f % 4];
@@ -33,11 +37,16 @@ bool is_ball(const Triangulation& tets, const Cavity& cavity) {
 }
 
 bool ConstrainedSearch::find_cavity(const Vec3& p, Index start, Cavity& cavity) {
+  const bool found = search(p, start, cavity);
+  if (!found) wasted_ += cavity.tets.size();
+  return found;
+}
+
+bool ConstrainedSearch::search(const Vec3& p, Index start, Cavity& cavity) {
   cavity.border.clear();
   cavity.outside.clear();
   cavity.tets.clear();
-  if (!tets_.in_conflict(start, p)) return false;
-  collect(p, start, cavity);
+  if (!tets_.in_conflict(start, p) || !collect(p, start, cavity)) return false;
   while (drop_unseen(p, cavity)) {
     if (!is_inside(start)) return false;
     keep_connected(start, cavity);
@@ -45,12 +54,14 @@ bool ConstrainedSearch::find_cavity(const Vec3& p, Index start, Cavity& cavity) 
   return collect_border(cavity) && is_ball(tets_, cavity);
 }
 
-void ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
+bool ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
+  const std::size_t most = wasted_ < kPatience ? tets_.slot_count() : kSmall;
   stamp_.resize(tets_.slot_count(), 0);
   ++epoch_;
   cavity.tets.push_back(start);
   stamp_[start] = 2 * epoch_ + 1;
   for (std::size_t k = 0; k < cavity.tets.size(); ++k) {
+    if (cavity.tets.size() > most) return false;
     const Index t = cavity.tets[k];
     for (int i = 0; i < 4; ++i) {
       const Index n = tets_.neighbour(t, i) / 4;
@@ -60,6 +71,7 @@ void ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
       if (conflict) cavity.tets.push_back(n);
     }
   }
+  return true;
 }
 
 // Takes tetrahedra with a border face that p does not see out of the cavity; false when there is none.

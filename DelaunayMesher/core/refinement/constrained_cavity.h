@@ -5,6 +5,7 @@
 // in a constrained Delaunay triangulation (Shewchuk 2002).  It is used only when it is a ball that the site
 // sees entirely, so the triangulation stays valid; it is no longer Delaunay across that boundary, which is
 // reported.
+// Cost: linear in the cavity; what is spent on cavities that are no balls is bounded in all.
 #pragma once
 
 #include "boundary/recovery.h"
@@ -18,7 +19,8 @@ class ConstrainedSearch {
   bool find_cavity(const Vec3& p, Index start, Cavity& cavity);
 
  private:
-  void collect(const Vec3& p, Index start, Cavity& cavity);
+  bool search(const Vec3& p, Index start, Cavity& cavity);
+  bool collect(const Vec3& p, Index start, Cavity& cavity);
   bool is_inside(Index tet) const { return stamp_[tet] == 2 * epoch_ + 1; }
   bool drop_unseen(const Vec3& p, Cavity& cavity);
   void keep_connected(Index start, Cavity& cavity);
@@ -26,6 +28,7 @@ class ConstrainedSearch {
   const Triangulation& tets_;
   std::vector<std::uint32_t> stamp_;  // per slot: 2 * epoch_ = seen, + 1 = in conflict
   std::uint32_t epoch_ = 0;
+  std::size_t wasted_ = 0;  // tetrahedra in cavities that were no balls
 };
 
 // Is the cavity a topological ball without inner vertices?  Always so in a Delaunay triangulation.
