@@ -46,7 +46,7 @@ def strip_facets(face, lines):
     flat = parameters(face, nodes)
     triangles = triangulate_facet(flat, [loop])
     corner, span = flat[triangles[:, 0], :2], flat[triangles, :2]
-    area = np.cross(span[:, 1] - corner, span[:, 2] - corner).sum()
+    area = np.linalg.det(span[:, 1:] - corner[:, None]).sum()
     u, v = flat[loop[0], :2].tolist()
     along_u, along_v = face.Surface.getDN(u, v, 1, 0), face.Surface.getDN(u, v, 0, 1)
     outward = along_u.cross(along_v).dot(face.normalAt(u, v)) > 0
