@@ -1,7 +1,7 @@
 """The example bracket at about 100,000 tetrahedra: all stages of ours beside Gmsh's HXT, in the same run.
 
-    python3 -m venv /tmp/gmsh && /tmp/gmsh/bin/pip install gmsh numpy
-    /usr/bin/python3 benchmarks/bracket_against_hxt.py --gmsh /tmp/gmsh/bin/python
+    python3 -m venv ../rivals && ../rivals/bin/pip install gmsh numpy
+    /usr/bin/python3 benchmarks/bracket_against_hxt.py --gmsh ../rivals/bin/python
 
 Every repetition runs each mesher once, each in a process of its own with one thread, so that a busy machine
 is busy for all; the best time of each counts.  Time is that of meshing alone: ours from the CAD solid to the

@@ -103,11 +103,12 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   result.statistics.emplace_back("predicted_tetrahedra", size.predicted_tetrahedra());
   clock.stop("sizing");
 
-  const SurfaceMesh surface = mesh_surfaces(plc, geometry, size, {}, context);
+  SurfaceMesh surface = mesh_surfaces(plc, geometry, size, {}, context);
   clock.stop("surfaces");
 
   RecoveryReport recovery;
-  LabelledTriangulation labelled = recover_boundary(surface, plc, geometry, size, context, recovery);
+  LabelledTriangulation labelled =
+      recover_boundary(std::move(surface), plc, geometry, size, context, recovery);
   clock.stop("boundary");
 
   RefineReport refinement;
