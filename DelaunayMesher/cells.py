@@ -11,8 +11,6 @@ geometry".) Cost: O(m log m), and O(m) per shell whose bounding box lies in that
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from .errors import MeshError
 
@@ -58,6 +56,9 @@ def half_edges(triangles):
 
 def connected(a, b, count):
     """How many groups `count` items fall into when a[k] and b[k] are linked, and the group of each."""
+    from scipy.sparse import coo_matrix  # here, as most runs do without
+    from scipy.sparse.csgraph import connected_components
+
     links = coo_matrix((np.ones(len(a), bool), (a, b)), shape=(count, count))
     return connected_components(links, directed=False)
 

@@ -1,7 +1,6 @@
 """Triangle soup -> a surface with shared points: merge what coincides, drop what is flat or unused."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from .cells import connected, half_edges
 from .errors import MeshError
@@ -62,6 +61,8 @@ def _merged(points, triangles, labels, tolerance):
 
 def merge_points(points, tolerance):
     """(n,) for each point the first of the points that coincide with it."""
+    from scipy.spatial import cKDTree  # here, as CAD does without
+
     order, same = _same_as_before(points.T)
     first = order[~same]
     group = np.empty(len(points), np.int64)

@@ -1,4 +1,4 @@
-"""Write meshes: FreeCAD documents through document, every other format through meshio."""
+"""Write meshes: FreeCAD documents through document, .vtu by vtufile, every other format through meshio."""
 
 import os
 import tempfile
@@ -7,11 +7,13 @@ import numpy as np
 
 from .errors import InputError
 from .surfacefile import import_meshio
+from .vtufile import write_vtu
 
 CAD_ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep", ".brp", ".fcstd")
 FREECAD_ENDING = ".fcstd"
-# Formats of meshio that hold tetrahedra and triangles of both orders and read back the same.
-MESH_ENDINGS = (".inp", ".vtu", ".vtk", ".msh", ".med", ".xdmf", ".bdf", ".nas", ".mesh")
+VTU_ENDING = ".vtu"
+# Formats that hold tetrahedra and triangles of both orders and read back the same.
+MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", ".bdf", ".nas", ".mesh")
 
 
 def ending_of(path):
@@ -33,7 +35,8 @@ def check_output(path):
         raise _unwritable(
             "%s: cannot write %r files, only %s" % (path, ending_of(path), known), "unknown_format"
         )
-    import_meshio()
+    if ending_of(path) != VTU_ENDING:
+        import_meshio()
 
 
 def _unwritable(message, code="unwritable"):
@@ -67,7 +70,11 @@ def write_mesh(path, mesh):
     folder = os.path.dirname(os.path.abspath(str(path)))
     try:
         with tempfile.TemporaryDirectory(dir=folder, prefix=".mesh-") as workshop:
-            write_with_meshio(os.path.join(workshop, os.path.basename(str(path))), to_meshio(mesh))
+            target = os.path.join(workshop, os.path.basename(str(path)))
+            if ending == VTU_ENDING:
+                write_vtu(target, mesh)
+            else:
+                write_with_meshio(target, to_meshio(mesh))
             for name in os.listdir(workshop):  # some formats take several files
                 os.replace(os.path.join(workshop, name), os.path.join(folder, name))
     except ImportError as error:
@@ -91,8 +98,6 @@ def write_with_meshio(path, mesh):
         meshio.write(path, mesh)
     elif ending == ".xdmf":
         meshio.write(path, mesh, data_format="XML")  # one file, and no need of h5py
-    elif ending == ".vtu":
-        meshio.write(path, mesh, compression=None)  # compressing takes longer than meshing
     else:
         meshio.write(path, mesh)
 

@@ -1,3 +1,5 @@
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -88,3 +90,21 @@ def test_nodes_of_elements():
     assert mesh.nodes_of("Vertex3").tolist() == [2]
     with pytest.raises(InputError):
         mesh.nodes_of("Nose1")
+
+
+def test_vtu_is_written_in_pieces(tmp_path):
+    """A large mesh is not copied as a whole, and its pieces join up."""
+    mesh, copies = two_tets(1), 150000
+    for name in ("tets", "tet_solid", "triangles", "triangle_face"):
+        array = getattr(mesh, name)
+        setattr(mesh, name, np.tile(array, (copies, 1) if array.ndim == 2 else copies))
+    tracemalloc.start()
+    mesh.write(tmp_path / "a.vtu")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 0.5 * mesh.tets.nbytes
+    back = meshio.read(tmp_path / "a.vtu")
+    assert np.array_equal(back.cells[0].data, mesh.tets)
+    assert np.array_equal(back.cells[1].data, mesh.triangles)
+    assert np.array_equal(back.cell_data["solid"][0], mesh.tet_solid)
+    assert np.array_equal(back.cell_data["face"][1], mesh.triangle_face + 1)

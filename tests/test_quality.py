@@ -116,3 +116,8 @@ def test_summary_counts():
     assert summary["below"] == {"5": 0, "10": 0, "15": 0, "20": 0, "30": 0}
     assert sum(summary["histogram"]["counts"]) == 12
     assert quality.summary(points, tets[:0]) == {}
+
+
+def test_median_in_pieces():
+    lengths = np.random.default_rng(1).lognormal(0.0, 2.0, 10001)
+    assert quality.median(np.array_split(lengths, 7)) == pytest.approx(np.median(lengths), rel=2e-4)
