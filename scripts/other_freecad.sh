@@ -96,7 +96,7 @@ test_suite() {
     >example_output/log.txt 2>&1 </dev/null; grep -q '^EXAMPLE OK' example_output/log.txt && cat example_output/summary.txt ||
     { tail -n 30 example_output/log.txt; exit 1; }" || failed=1
   say "$suite: tests of documents"
-  inside "$root" sh -c "cd $PLACE && timeout $LONGEST python3 -m pytest tests/document --ignore-glob='*/test_fem*'" || failed=1
+  inside "$root" sh -c "cd $PLACE && timeout $LONGEST python3 -m pytest tests/document" || failed=1
   say "$suite: tests in the window"
   inside "$root" sh -c "cd $PLACE && timeout $LONGEST python3 -m pytest -m long tests/gui --basetemp=/srv/windows" ||
     failed=1

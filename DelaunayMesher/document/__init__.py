@@ -10,7 +10,7 @@ from .find_freecad import find_freecad
 
 find_freecad()
 
-from .calculix import solve  # noqa: E402
+from .calculix import add_solver, solve  # noqa: E402
 from .fcstd import write_fcstd  # noqa: E402
 from .femmesh import fem_mesh  # noqa: E402
 from .mesh_object import add_mesh, mesh_shape, run  # noqa: E402
@@ -22,6 +22,7 @@ __all__ = [
     "CAD_SUFFIXES",
     "add_mesh",
     "add_size_region",
+    "add_solver",
     "convert",
     "fem_mesh",
     "find_freecad",

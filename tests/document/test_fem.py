@@ -88,14 +88,14 @@ def test_elements_and_groups(name, order):
 def analysis_with(file, part, filled, constraints):
     """(analysis, solver) with steel, a mesh and constraints."""
     analysis = ObjectsFem.makeAnalysis(file, "Analysis")
-    solver = ObjectsFem.makeSolverCalculixCcxTools(file, "Solver")
+    solver = document.add_solver(analysis)
     material = ObjectsFem.makeMaterialSolid(file, "Steel")
     card = material.Material
     card.update(Name="Steel", YoungsModulus="210000 MPa", PoissonRatio="0.30")
     material.Material = card
     holder = file.addObject("Fem::FemMeshObject", "Mesh")
     holder.FemMesh = filled
-    for item in (solver, material, holder, *constraints):
+    for item in (material, holder, *constraints):
         analysis.addObject(item)
     return analysis, solver
 
@@ -200,7 +200,8 @@ def test_freecads_cantilever_bends_as_beam_theory_and_gmsh_say(tmp_path):
     try:
         analysis, part = file.Analysis, file.Box
         old = next(item for item in analysis.Group if item.isDerivedFrom("Fem::FemMeshObject"))
-        gmsh_says = solved(analysis, file.CalculiXccxTools, tmp_path)
+        solver = next(item for item in analysis.Group if item.isDerivedFrom("Fem::FemSolverObject"))
+        gmsh_says = solved(analysis, solver, tmp_path)
         analysis.removeObject(old)
         file.removeObject(old.Name)
         mesh = document.add_mesh(part, analysis=analysis, max_size=500.0, order=2)
@@ -208,7 +209,7 @@ def test_freecads_cantilever_bends_as_beam_theory_and_gmsh_say(tmp_path):
         length, side, force, young, poisson = 8000.0, 1000.0, 9e6, 210000.0, 0.3
         inertia, area, shear = side**4 / 12, side**2, young / (2 * (1 + poisson))
         theory = force * length**3 / (3 * young * inertia) + force * length / (5 / 6 * shear * area)
-        we_say = solved(analysis, file.CalculiXccxTools, tmp_path)
+        we_say = solved(analysis, solver, tmp_path)
         assert we_say == pytest.approx(theory, rel=0.02)
         assert we_say == pytest.approx(gmsh_says, rel=0.02)
     finally:
