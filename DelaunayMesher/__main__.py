@@ -8,8 +8,10 @@ import argparse
 import os
 import sys
 import time
+from contextlib import nullcontext
 
 from . import __version__
+from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
 from .errors import EXIT_BELOW_TARGET, EXIT_CANCELLED, EXIT_OK, InputError, MeshCancelled, MeshError, refusal
 from .options import OPTIONS, MeshOptions
 from .progress import TerminalBar
@@ -97,6 +99,21 @@ def main(argv=None):
 
 def work(arguments, bar):
     """Mesh, write, say what was made: (exit status, report)."""
+    with source_of(arguments) as source:  # first, as what follows loads NumPy and the core meanwhile
+        return mesh_source(source, arguments, bar)
+
+
+def source_of(arguments):
+    """The input for pipeline.run(): a CadProcess unless the shape itself is needed again."""
+    path = arguments.input
+    apart = ending_of(path) in CAD_ENDINGS and ending_of(arguments.output) != ".fcstd"
+    if apart and os.path.isfile(path) and sys.executable and "FreeCAD" not in sys.modules:
+        return CadProcess(path)
+    return nullcontext(path)
+
+
+def mesh_source(source, arguments, bar):
+    """As work()."""
     from .meshfile import check_output, write_mesh
     from .pipeline import run
 
@@ -104,7 +121,7 @@ def work(arguments, bar):
     check_output(arguments.output)
     if arguments.report and not os.path.isdir(os.path.dirname(os.path.abspath(arguments.report))):
         raise refusal("%s: there is no such folder" % arguments.report)
-    mesh = run(arguments.input, options, bar)
+    mesh = run(source, options, bar)
     start = time.perf_counter()
     if bar:
         bar("write", 0.0)

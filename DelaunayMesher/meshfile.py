@@ -5,20 +5,15 @@ import tempfile
 
 import numpy as np
 
+from .cadprocess import ending_of
 from .errors import InputError
 from .surfacefile import import_meshio
 from .vtufile import write_vtu
 
-CAD_ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep", ".brp", ".fcstd")
 FREECAD_ENDING = ".fcstd"
 VTU_ENDING = ".vtu"
 # Formats that hold tetrahedra and triangles of both orders and read back the same.
 MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", ".bdf", ".nas", ".mesh")
-
-
-def ending_of(path):
-    """The file name's ending in lower case, '.step' for instance."""
-    return os.path.splitext(str(path))[1].lower()
 
 
 def check_output(path):

@@ -11,8 +11,8 @@ from contextlib import contextmanager
 import numpy as np
 
 from . import extension, joining, sizing
+from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
 from .errors import InputError, MeshCancelled, MeshError
-from .meshfile import CAD_ENDINGS, ending_of
 from .options import make_options
 from .plc import Plc
 from .result import mesh_from_core
@@ -20,7 +20,7 @@ from .surfacefile import Surface, read_surface
 
 
 def run(source, options=None, report=None, keep=()):
-    """Mesh of a Part shape, a Plc, a surface (points, triangles) or a file name.
+    """Mesh of a Part shape, a Plc, a surface (points, triangles), a file name or a CadProcess.
 
     options: MeshOptions, dict or None. report: callable (stage, fraction in 0..1) called now and then from
     this thread; False cancels. keep: names of elements of a Part shape that stay (document.convert).
@@ -33,6 +33,9 @@ def run(source, options=None, report=None, keep=()):
     if isinstance(source, (str, os.PathLike)):
         with _stage("read", seconds, report):
             source = read(source)
+    elif isinstance(source, CadProcess):
+        with _stage("read", seconds, report):
+            source.wait()
     start = time.perf_counter()
     with _stage("plc", seconds, report):
         plcs, shape, converted = to_plcs(source, options, keep)
@@ -121,7 +124,9 @@ def read(path):
 
 
 def to_plcs(source, options, keep=()):
-    """([Plc, ...], shape or None, ShapePlc or None) of whatever is to be meshed."""
+    """([Plc, ...], shape or None, ShapePlc or CadProcess or None) of whatever is to be meshed."""
+    if isinstance(source, CadProcess):
+        return source.convert(options), None, source
     if isinstance(source, Plc):
         source.check()
         return [source], None, None

@@ -191,7 +191,7 @@ def summary(points, tets):
 
 
 def median(pieces):
-    """Median of positive numbers that come in pieces, to a relative 1e-4: by a histogram of their logarithms."""
+    """Median of positive numbers that come in pieces, to 1e-4 of it: by a histogram of logarithms."""
     counts = np.zeros(2 * BINADES * BINS, np.int64)
     for piece in pieces:
         bins = (BINS * (np.log2(piece) + BINADES)).astype(np.int64)

@@ -22,7 +22,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, ROOT)
 
-from DelaunayMesher.meshfile import CAD_ENDINGS, ending_of  # noqa: E402
+from DelaunayMesher.cadprocess import CAD_ENDINGS, ending_of  # noqa: E402
 from DelaunayMesher.surfacefile import READERS  # noqa: E402
 
 REASONS = ("input_angle", "size_floor", "fallback")

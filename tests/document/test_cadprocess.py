@@ -1,0 +1,76 @@
+"""CAD read by a process of its own."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import Part
+import pytest
+from FreeCAD import Vector
+from parts import BRACKET
+
+from DelaunayMesher import document, pipeline
+from DelaunayMesher.cadprocess import CadProcess
+from DelaunayMesher.errors import InputError, MeshError
+from DelaunayMesher.options import MeshOptions
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+@pytest.fixture
+def two_boxes(tmp_path):
+    """Two solids in one group, as they touch in an edge."""
+    boxes = [Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(10, 0, 0))]
+    path = str(tmp_path / "two.brep")
+    boxes[0].generalFuse(boxes[1:])[0].exportBrep(path)
+    return path
+
+
+def test_same_mesh_as_in_this_process():
+    options = MeshOptions(max_size=8, optimise=False)
+    with CadProcess(BRACKET) as source:
+        apart = pipeline.run(source, options)
+    here = pipeline.run(BRACKET, options)
+    assert apart.points.tobytes() == here.points.tobytes()
+    assert apart.tets.tobytes() == here.tets.tobytes()
+    assert list(apart.seconds) == list(here.seconds)
+    assert apart.shape is None and here.shape is not None
+
+
+def test_solids_apart(two_boxes):
+    options = MeshOptions(max_size=4)
+    with CadProcess(two_boxes) as source:
+        source.wait()
+        plcs = source.convert(options)
+    converted = document.convert(document.read_shape(two_boxes), options)
+    assert len(plcs) == len(converted.plcs) == 1 and plcs[0].solid_count == 2
+    for pieces in (source.apart(plcs[0]), converted.apart(converted.plcs[0])):
+        assert [piece.solid_numbers.tolist() for piece in pieces] in ([], [[1], [2]])
+
+
+def test_errors_come_back(tmp_path):
+    (tmp_path / "bad.step").write_text("what is this")
+    Part.makePlane(1, 1).exportBrep(str(tmp_path / "plane.brep"))
+    for name, kind in (("bad.step", InputError), ("plane.brep", MeshError)):
+        with CadProcess(str(tmp_path / name)) as source, pytest.raises(kind) as caught:
+            pipeline.run(source, MeshOptions())
+        assert caught.value.stage == "plc"
+
+
+def test_a_crash_is_an_unreadable_file():
+    with CadProcess(BRACKET) as source:
+        source.process.send_signal(signal.SIGKILL)
+        with pytest.raises(InputError) as caught:
+            pipeline.run(source, MeshOptions())
+    assert caught.value.code == "unreadable" and BRACKET in str(caught.value)
+
+
+def test_the_command_line_does_not_hold_freecad(tmp_path):
+    report = tmp_path / "a.json"
+    command = [sys.executable, "-m", "DelaunayMesher", BRACKET, "-o", str(tmp_path / "a.vtu")]
+    subprocess.run([*command, "--report", str(report), "--max-size", "8"], cwd=ROOT, check=True, timeout=120)
+    assert os.path.getsize(tmp_path / "a.vtu") > 0
+    assert json.loads(report.read_text())["peak_bytes"] < 70e6
