@@ -16,11 +16,11 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
     import Fem  # noqa: F401  registers the document types
     import FreeCAD
 
-    from .femmesh import fem_mesh
-    from .mesh_object import add_mesh, size_rows, store
+    from .femmesh import fill, put
+    from .mesh_object import add_mesh, describe, size_rows
     from .properties import set_options
 
-    filled = fem_mesh(mesh, aliases=aliases)
+    filling = fill(mesh, aliases=aliases)
     document = FreeCAD.newDocument("Mesh", hidden=True, temp=True)
     try:
         if shape is not None:
@@ -30,9 +30,11 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
             if options is not None:
                 set_options(target, options)
                 target.Sizes = size_rows(options.sizes)
-            store(target, mesh, filled)
+            describe(target, mesh)
         else:
-            document.addObject("Fem::FemMeshObject", "FEMMesh").FemMesh = filled
+            target = document.addObject("Fem::FemMeshObject", "FEMMesh")
+        for _ in put(target, filling):
+            pass
         save(document, path)
     finally:
         FreeCAD.closeDocument(document.Name)

@@ -8,7 +8,7 @@ undo or redo the mesh with the object's number is put back.
 
 import FreeCAD
 
-from .femmesh import fem_mesh
+from .femmesh import fill, put
 
 MOST_ELEMENTS = 3000000  # in the meshes kept for one object besides the last two; some 60 bytes each
 
@@ -19,8 +19,9 @@ class Kept:
     def __init__(self, mesh, groups):
         self.mesh, self.groups, self.elements = mesh, groups, len(mesh.tets)
 
-    def fem_mesh(self):
-        return fem_mesh(self.mesh, self.groups)
+    def put_into(self, target):
+        for _ in put(target, fill(self.mesh, self.groups)):
+            pass
 
 
 class Copied:
@@ -29,8 +30,8 @@ class Copied:
     def __init__(self, filled):
         self.filled, self.elements = filled.copy(), filled.VolumeCount
 
-    def fem_mesh(self):
-        return self.filled
+    def put_into(self, target):
+        target.FemMesh = self.filled
 
 
 class Runs:
@@ -104,6 +105,6 @@ def restore(document):
                 "%s: the mesh of this step is no longer kept, run the mesher again\n" % target.Label
             )
             continue
-        target.FemMesh = kept.fem_mesh()
+        kept.put_into(target)
         runs.shown = target.RunNumber
         target.purgeTouched()

@@ -11,8 +11,7 @@ import Fem  # noqa: F401  registers the document types; without it the better ty
 import FreeCAD
 
 from ..errors import InputError
-from . import references
-from .femmesh import fem_mesh
+from . import femmesh, references
 from .placement import own_shape, shape_to_mesh
 from .properties import add_option_properties, get_options, set_options
 from .size_region import add_size_region, regions_of
@@ -173,10 +172,11 @@ def run(target, report=None, **extra):
     mesh = mesh_shape(shape, options, report, keep)
     mesh.warnings[:0] = warnings
     start = time.perf_counter()
-    filled = fem_mesh(mesh, groups)
+    for _ in femmesh.put(target, femmesh.fill(mesh, groups)):
+        pass
     mesh.seconds["write"] = time.perf_counter() - start
     mesh.total_seconds += mesh.seconds["write"]
-    store(target, mesh, filled)
+    describe(target, mesh)
     return mesh
 
 
@@ -185,12 +185,6 @@ def mesh_shape(shape, options, report=None, keep=()):
     from .. import pipeline
 
     return pipeline.run(shape, options, report, keep)
-
-
-def store(target, mesh, filled):
-    """Put a finished mesh and its report into the object (only from the thread of the window)."""
-    target.FemMesh = filled
-    describe(target, mesh)
 
 
 def describe(target, mesh):

@@ -13,7 +13,7 @@ import FreeCAD
 from PySide import QtCore
 
 from ..document import history, mesh_object
-from ..document.femmesh import fem_mesh
+from ..document.femmesh import fill, put
 from ..errors import MeshCancelled, MeshError
 from ..progress import Progress
 from .texts import tr
@@ -45,7 +45,7 @@ class MeshJob:
         self.shape = shape.copy()  # the document's own shape may be recomputed meanwhile
         self.where = (target.Document.Name, target.Name)
         self.stage, self.fraction = "plc", 0.0
-        self.mesh = self.filled = self.error = None
+        self.mesh = self.filling = self.error = None
         self.cancelled = False
         self.progress = Progress()
         self.begin = self.end = time.monotonic()
@@ -70,20 +70,22 @@ class MeshJob:
         return (self.end if self.finished else time.monotonic()) - self.begin
 
     def run(self):
-        """In the thread: shape -> mesh -> FemMesh that belongs to no document yet."""
+        """In the thread: shape -> mesh -> what the document is to get, and the figures for the report."""
         try:
             mesh = mesh_object.mesh_shape(self.shape, self.options, self.report, self.keep)
             mesh.warnings[:0] = self.warnings
             self.proceed("write", 0.0)
             start = time.monotonic()
-            filled = fem_mesh(mesh, self.groups)
+            measure = threading.Thread(target=lambda: mesh.quality, name="DelaunayMesher quality")
+            measure.start()
+            filling = fill(mesh, self.groups)
             taken = time.monotonic() - start
             mesh.seconds = {**mesh.seconds, "write": taken}
             mesh.total_seconds += taken
             self.proceed("quality", 0.0)
-            mesh.quality  # noqa: B018  computed here, not later in the thread of the window
+            measure.join()
             self.proceed("quality", 1.0)
-            self.mesh, self.filled = mesh, filled
+            self.mesh, self.filling = mesh, filling
         except MeshError as error:
             self.error = error
         except Exception as error:
@@ -113,13 +115,14 @@ class MeshJob:
         The mesh itself stays out of FreeCAD's transaction, which cannot bring an old one back.
         """
         history.keep_present(target)
-        target.FemMesh = self.filled
+        for _ in put(target, self.filling):
+            QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.ExcludeUserInputEvents)
         target.Document.openTransaction(tr("Delaunay mesh run"))
         mesh_object.describe(target, self.mesh)
         history.number_run(target, self.mesh, self.groups)
         show_mesh_instead_of_part(target)
         target.Document.commitTransaction()
-        self.mesh = self.filled = None
+        self.mesh = self.filling = None
         target.recompute()
 
 
