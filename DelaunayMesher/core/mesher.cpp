@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "base/memory.h"
 #include "boundary/recovery.h"
 #include "refinement/carve.h"
 #include "refinement/extract.h"
@@ -115,7 +116,9 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   mark_acute_segments(labelled, kAcuteAngle);
   refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
   result.statistics.emplace_back("flat_tetrahedra_left_out", carve_flat_tets(labelled));
-  result.mesh = extract_volume_mesh(std::move(labelled));
+  return_freed_memory();
+  result.mesh = extract_volume_mesh(std::move(labelled), options.optimise);
+  return_freed_memory();
   record(result, recovery, refinement);
   warn(result, recovery, refinement);
   clock.stop("refinement");

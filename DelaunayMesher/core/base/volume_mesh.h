@@ -1,7 +1,8 @@
 // The tetrahedral mesh between refinement, optimisation and order, and at the end.
 //
 // Tetrahedra are positively oriented: dot(cross(b - a, c - a), d - a) > 0 (VTK order).  Face i is opposite
-// corner i.  neighbours: across face i, 4 * tet + its face, or -1 outside all solids.
+// corner i.  neighbours: across face i, 4 * tet + its face, or -1 outside all solids; empty without
+// optimisation.
 #pragma once
 
 #include <vector>

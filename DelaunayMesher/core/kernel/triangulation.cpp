@@ -20,6 +20,11 @@ Triangulation::Arrays Triangulation::release() && {
   return {std::move(points_), std::move(corners_), std::move(neighbours_), std::move(tags_), slots_.next};
 }
 
+void Triangulation::reserve_vertices(std::size_t count) {
+  points_.reserve(count);
+  vertex_tet_.reserve(count);
+}
+
 std::size_t Triangulation::bytes() const {
   const auto held = [](const auto& array) { return array.size() * sizeof(array[0]); };
   return held(points_) + held(corners_) + held(neighbours_) + held(tags_) + held(flags_) + held(vertex_tet_) +

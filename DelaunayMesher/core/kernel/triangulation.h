@@ -116,6 +116,9 @@ class Triangulation {
       if (v >= 0) dm::prefetch(&points_[v]);
   }
 
+  // Room for this many vertices: growing step by step would hold some of them twice.
+  void reserve_vertices(std::size_t count);
+
   // Memory held by all arrays.
   std::size_t bytes() const;
 

@@ -20,6 +20,10 @@ Triangle face_corners(const Tet& tet, int face) {
 }  // namespace
 
 EditMesh::EditMesh(VolumeMesh& mesh) : mesh_(mesh) {
+  const std::size_t room = mesh.tets.capacity();
+  bad_.reserve(room);
+  marks_.reserve(room);
+  stamp_.reserve(room);
   build_vertex_tets();
   build_point_faces();
   mark_boundary();

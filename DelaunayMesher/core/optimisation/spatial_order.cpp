@@ -47,9 +47,14 @@ std::vector<Index> tet_places(const std::vector<Tet>& tets, std::size_t point_co
   return place;
 }
 
+// Flips take a few slots more than there are: growing would hold all of them twice.
+std::size_t with_room(std::size_t count) { return count + count / 16; }
+
 template <class T>
 void permute(std::vector<T>& items, const std::vector<Index>& place) {
-  std::vector<T> sorted(items.size());
+  std::vector<T> sorted;
+  sorted.reserve(with_room(items.size()));
+  sorted.resize(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) sorted[place[i]] = items[i];
   items.swap(sorted);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/memory.h"
+
 namespace dm {
 
 namespace {
@@ -11,29 +13,44 @@ bool is_meshed(const Triangulation::Arrays& arrays, Index t) {
   return arrays.corners[t][0] != Triangulation::free_slot && arrays.tags[t] != 0;
 }
 
-void extract_tets(Triangulation::Arrays& arrays, const std::vector<Index>& vertex_of, VolumeMesh& out) {
+// Calls take(t) for every slot; what `used` has held up to there is given back, so that both meshes take
+// hardly more room than one.
+template <class T, class Take>
+void use_up(Array<T>& used, Index slot_count, const Take& take) {
+  constexpr Index kAtOnce = 1 << 17;
+  for (Index begin = 0; begin < slot_count; begin += kAtOnce) {
+    const Index end = std::min(slot_count, begin + kAtOnce);
+    for (Index t = begin; t < end; ++t) take(t);
+    return_front(used.data(), end * sizeof(T));
+  }
+  used = {};
+}
+
+void extract_tets(Triangulation::Arrays& arrays, const std::vector<Index>& vertex_of, bool with_neighbours,
+                  VolumeMesh& out) {
   std::vector<Index> tet_of(arrays.slot_count, -1);
   Index count = 0;
   for (Index t = 0; t < arrays.slot_count; ++t)
     if (is_meshed(arrays, t)) tet_of[t] = count++;
   out.tet_solid.reserve(count);
   out.tets.reserve(count);
-  for (Index t = 0; t < arrays.slot_count; ++t) {
-    if (tet_of[t] < 0) continue;
+  if (!with_neighbours) arrays.neighbours = {};
+  use_up(arrays.corners, arrays.slot_count, [&](Index t) {
+    if (tet_of[t] < 0) return;
     out.tet_solid.push_back(arrays.tags[t]);
     Tet corners = arrays.corners[t];
     for (Index& v : corners) v = vertex_of[v];
     out.tets.push_back(corners);
-  }
+  });
   arrays.tags = {};
-  arrays.corners = {};
+  if (!with_neighbours) return;
   out.neighbours.reserve(count);
-  for (Index t = 0; t < arrays.slot_count; ++t) {
-    if (tet_of[t] < 0) continue;
+  use_up(arrays.neighbours, arrays.slot_count, [&](Index t) {
+    if (tet_of[t] < 0) return;
     std::array<Index, 4> across = arrays.neighbours[t];
     for (Index& g : across) g = tet_of[g / 4] < 0 ? -1 : 4 * tet_of[g / 4] + g % 4;
     out.neighbours.push_back(across);
-  }
+  });
 }
 
 void extract_boundary(const BoundaryComplex& complex, const std::vector<Index>& vertex_of, VolumeMesh& out) {
@@ -57,7 +74,7 @@ void extract_boundary(const BoundaryComplex& complex, const std::vector<Index>& 
 
 }  // namespace
 
-VolumeMesh extract_volume_mesh(LabelledTriangulation mesh) {
+VolumeMesh extract_volume_mesh(LabelledTriangulation mesh, bool with_neighbours) {
   Triangulation::Arrays arrays = std::move(mesh.tets).release();
   const auto vertex_count = static_cast<Index>(arrays.points.size());
   std::vector<Index> solid_of(vertex_count, 0);
@@ -79,7 +96,7 @@ VolumeMesh extract_volume_mesh(LabelledTriangulation mesh) {
   arrays.points.shrink_to_fit();
   out.points = std::move(arrays.points);
   extract_boundary(BoundaryComplex(std::move(mesh.boundary)), vertex_of, out);
-  extract_tets(arrays, vertex_of, out);
+  extract_tets(arrays, vertex_of, with_neighbours, out);
   return out;
 }
 

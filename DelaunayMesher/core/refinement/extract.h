@@ -6,7 +6,8 @@
 
 namespace dm {
 
-// Uses the triangulation up, array by array, so that it never stands beside the whole mesh.
-VolumeMesh extract_volume_mesh(LabelledTriangulation mesh);
+// Uses the triangulation up, so that it never stands beside the whole mesh.  Only optimisation needs the
+// neighbours.
+VolumeMesh extract_volume_mesh(LabelledTriangulation mesh, bool with_neighbours = true);
 
 }  // namespace dm

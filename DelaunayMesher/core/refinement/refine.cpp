@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <deque>
 #include <limits>
 
 #include "base/random.h"
@@ -31,6 +32,7 @@ constexpr double kSpacing = 0.3;        // least distance of a site from all ver
 constexpr double kFarFacet = 4;         // circumradii from which on a site no longer encroaches
 constexpr double kPassable = 0.5;  // angle that a boundary split in place of a sliver may make, over target
 constexpr double kSegmentFloor = 0.6;  // length over wanted edge
+constexpr double kRoom = 1.1;          // for vertices, over the sites expected
 
 class Refinement {
  public:
@@ -52,6 +54,7 @@ class Refinement {
         expected_sites_(std::max(1.0, size.predicted_tetrahedra() / 5.5)) {}
 
   void run() {
+    tets_.reserve_vertices(tets_.points().size() + static_cast<std::size_t>(kRoom * expected_sites_));
     settle_ears();
     collect();
     sort_along_curve(next_);
@@ -111,11 +114,19 @@ class Refinement {
   }
 
   void push_if_bad(Index tet) {
-    if (is_inside(tet) && is_bad(tet) && !is_forced(tet)) next_.push_back(tet);
+    if (is_inside(tet) && is_bad(tet) && !is_forced(tet)) push(tet);
+  }
+
+  // Once, however often its slot is filled again meanwhile.
+  void push(Index tet) {
+    if (static_cast<Index>(waiting_.size()) <= tet)
+      waiting_.resize(tets_.slot_count() + tets_.slot_count() / 8);
+    if (waiting_[tet]) return;
+    waiting_[tet] = true;
+    next_.push_back(tet);
   }
 
   void collect() {
-    next_.clear();
     for (Index t = 0; t < tets_.slot_count(); ++t) push_if_bad(t);
   }
 
@@ -127,7 +138,6 @@ class Refinement {
     } else {
       std::sort(tried_.begin(), tried_.end());
       tried_.erase(std::unique(tried_.begin(), tried_.end()), tried_.end());
-      next_.clear();
       for (const Index t : tried_) push_if_bad(t);
     }
     tried_.clear();
@@ -135,7 +145,7 @@ class Refinement {
   }
 
   // Morton order of the circumcentres' cells: neighbours in the list are neighbours in memory.
-  void sort_along_curve(std::vector<Index>& list) const {
+  void sort_along_curve(std::deque<Index>& list) const {
     Vec3 low = tets_.point(0), high = low;
     for (const Vec3& p : tets_.points())
       for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
@@ -161,15 +171,15 @@ class Refinement {
   void drain() {
     while (!next_.empty()) {
       work_.swap(next_);
-      next_.clear();
-      for (std::size_t k = 0; k < work_.size(); ++k) {
-        if (k + 2 * kAhead < work_.size()) tets_.prefetch(work_[k + 2 * kAhead]);
-        if (k + kAhead < work_.size()) tets_.prefetch_points(work_[k + kAhead]);
-        const Index tet = work_[k];
+      for (; !work_.empty(); work_.pop_front()) {
+        if (2 * kAhead < work_.size()) tets_.prefetch(work_[2 * kAhead]);
+        if (kAhead < work_.size()) tets_.prefetch_points(work_[kAhead]);
+        const Index tet = work_.front();
+        waiting_[tet] = false;
+        if (sliver_mode_) tried_.push_back(tet);
         if ((++steps_ & 63) == 0) context_.poll(0.95 * static_cast<double>(report_.sites) / expected_sites_);
         process(tet);
       }
-      if (sliver_mode_) tried_.insert(tried_.end(), work_.begin(), work_.end());
     }
   }
 
@@ -418,7 +428,9 @@ class Refinement {
   std::vector<SplitFailure> failures_;  // of labelled triangles
   std::uint64_t steps_ = 0;
   Cavity cavity_;
-  std::vector<Index> work_, next_, tried_;   // tried_: in the last round of slivers
+  std::deque<Index> work_, next_;            // deques give memory back as they are used up
+  std::vector<Index> tried_;                 // in the last round of slivers
+  std::vector<bool> waiting_;                // by tetrahedron: in work_ or next_
   std::int64_t flips_before_ = 0;            // that round
   std::vector<std::pair<Index, int>> hits_;  // labelled triangles that refused a site, and how often
   std::vector<Segment> segments_;            // segments that surface sites would swallow
