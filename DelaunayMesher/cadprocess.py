@@ -93,10 +93,12 @@ def serve(path, answers):
     from . import document
 
     try:
-        shape = document.read_shape(path)
+        notes = []
+        shape = document.read_shape(path, notes)
         _send(None, answers)
         options, parted = pickle.load(sys.stdin.buffer)
         converted = document.convert(shape, options)
+        converted.plcs[0].warnings[:0] = notes
         result = converted.plcs
         for place in parted:
             result = converted.apart(converted.plcs[place])

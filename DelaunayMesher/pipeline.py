@@ -12,7 +12,7 @@ import numpy as np
 
 from . import extension, joining, sizing
 from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
-from .errors import InputError, MeshCancelled, MeshError
+from .errors import InputError, MeshCancelled, MeshError, entity_name
 from .options import make_options
 from .plc import Plc
 from .result import mesh_from_core
@@ -29,10 +29,10 @@ def run(source, options=None, report=None, keep=()):
     """
     core = extension.load()
     options = make_options(options)
-    seconds = {}
+    seconds, notes = {}, []
     if isinstance(source, (str, os.PathLike)):
         with _stage("read", seconds, report):
-            source = read(source)
+            source = read(source, notes)
     elif isinstance(source, CadProcess):
         with _stage("read", seconds, report):
             source.wait()
@@ -46,7 +46,7 @@ def run(source, options=None, report=None, keep=()):
         result, warnings = mesh_all(core, plcs, converted, options, report)
     except MemoryError:
         raise MeshError("refinement", "out_of_memory", "the memory is full; use a larger size") from None
-    mesh = mesh_from_core(result, options, warnings)
+    mesh = mesh_from_core(result, options, notes + warnings)
     mesh.total_seconds = time.perf_counter() - start
     mesh.seconds = _joined(seconds, mesh.seconds)
     mesh.shape, mesh.aliases = shape, getattr(converted, "aliases", None)
@@ -56,9 +56,10 @@ def run(source, options=None, report=None, keep=()):
 def mesh_all(core, plcs, converted, options, report):
     """(result of the core, warnings) of all PLCs together.
 
-    When one with several solids of a shape fails, its solids are meshed one by one instead.
+    When one with several solids of a shape fails, its solids are meshed one by one instead; a solid that
+    fails alone is left out, unless all do.
     """
-    waiting, done, results, warnings = list(plcs), [], [], []
+    waiting, done, results, warnings, failures = list(plcs), [], [], [], []
     while waiting:
         plc = waiting.pop(0)
         total = len(done) + 1 + len(waiting)
@@ -70,7 +71,11 @@ def mesh_all(core, plcs, converted, options, report):
         except MeshError as error:
             pieces = converted.apart(plc) if converted and error.code not in HOPELESS else []
             if not pieces:
-                raise joining.renamed(error, plc) from None
+                failures.append(joining.renamed(error, plc))
+                if error.code in HOPELESS or not (done or waiting):
+                    raise failures[0] from None
+                warnings += [*plc.warnings, "%s left out: %s" % (solid_names(plc), failures[-1])]
+                continue
             warnings += [
                 *plc.warnings,
                 "%s; so the solids were meshed one by one, and their meshes do not "
@@ -82,6 +87,11 @@ def mesh_all(core, plcs, converted, options, report):
         results.append(result)
         warnings += plc.warnings
     return joining.join(results, done), warnings
+
+
+def solid_names(plc):
+    """'Solid2, Solid5' of a PLC of a shape."""
+    return ", ".join(entity_name(3, int(number)) for number in plc.solid_numbers)
 
 
 HOPELESS = ("too_many_elements", "out_of_memory", "bad_size", "bad_region")  # with any of the solids
@@ -112,14 +122,14 @@ def _joined(first, second):
     return {stage: first.get(stage, 0.0) + second.get(stage, 0.0) for stage in {**first, **second}}
 
 
-def read(path):
-    """A Part shape of a CAD file, or the Surface of any other file."""
+def read(path, warnings=None):
+    """A Part shape of a CAD file, or the Surface of any other file; `warnings` takes what was mended."""
     if not os.path.isfile(path):
         raise InputError("read", "unreadable", "there is no file %s" % path)
     if ending_of(path) in CAD_ENDINGS:
         from . import document
 
-        return document.read_shape(path)
+        return document.read_shape(path, warnings)
     return read_surface(path)
 
 

@@ -13,15 +13,18 @@ import Part
 from ..errors import MeshError, entity_name
 from ..sizing import AUTOMATIC_FRACTION
 from .closed import open_triangles, solid_volumes
+from .filling import fill
 from .shape_plc import ShapePlc, face_names
+from .stitching import stitch
 from .tessellation import face_sides, tessellate
 
 LINEAR_SHARE = 0.02  # of the element size
 WALL_SHARE = 0.1  # of the thickness of the thinnest solid
 COARSEST, FINEST = 1.0 / 500.0, 1.0 / 3000.0  # linear deflection as shares of the diagonal; OCC is slow below
 ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
+FLAT = 1e-14  # volume over the diagonal's cube: none but rounding
 # Tried in turn until the triangles close: (factor on the linear, factor on the angular deflection).
-ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (4.0, 1.6))
+ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (0.06, 4.0), (4.0, 1.6))
 
 
 def plc_from_shape(shape, options=None, keep=()):
@@ -47,26 +50,65 @@ def convert(shape, options=None, keep=()):
     check_solid(shape)
     keep = set(keep) | set(getattr(options, "sizes", None) or ())
     linear, angular = deflections(shape, options)
-    faults = None
+    tried = []
     for linear_factor, angular_factor in ATTEMPTS:
         mesh, sides, fault = attempt(shape, linear * linear_factor, angular * angular_factor)
         if not fault:
             mesh, sides = finer_for_walls(shape, mesh, sides, linear * linear_factor, angular)
-            warnings = []
-            sides = outward(mesh, sides, warnings)
-            return ShapePlc(mesh, sides, keep, warnings)
-        faults = faults or (mesh, *fault)
-        if not shape.isValid():  # another tessellation will not mend it
+            return outward_plc(mesh, sides, keep, [])
+        tried.append(Mended(mesh, sides, fault))
+        if tried[-1].clean or not shape.isValid():  # invalid: another tessellation will not mend it
             break
-    raise open_shape(shape, *faults)
+    best = min(tried, key=lambda mended: (mended.left, not mended.clean))
+    mesh, sides, warnings = best.result(shape)
+    return outward_plc(mesh, sides, keep, warnings)
+
+
+def outward_plc(mesh, sides, keep, warnings):
+    """ShapePlc of a closed tessellation, its solids turned outward."""
+    return ShapePlc(mesh, outward(mesh, sides, warnings), keep, warnings)
 
 
 def attempt(shape, linear, angular):
     """(Tessellation, sides (F, 2), fault): fault is None when the triangles enclose every solid."""
     mesh = tessellate(shape, linear, angular)
     sides = face_sides(mesh.faces, mesh.shape.Solids)
+    return mesh, sides, fault_of(mesh, sides)
+
+
+def fault_of(mesh, sides):
+    """(rows of triangles, edges) that have no neighbour, or None."""
     rows, edges = open_triangles(mesh.triangles, sides[mesh.triangle_face], len(mesh.points))
-    return mesh, sides, (rows, edges) if len(rows) else None
+    return (rows, edges) if len(rows) else None
+
+
+class Mended:
+    """A tessellation with gaps, mended: `left` open edges, `clean` if none and nothing crosses."""
+
+    def __init__(self, mesh, sides, fault):
+        self.before, self.fault = mesh, fault
+        mesh, sides = stitch(mesh, sides)
+        self.mesh, self.filled, clean = fill(mesh, sides)
+        self.sides = sides
+        self.still = fault_of(self.mesh, sides)
+        self.left = len(self.still[0]) if self.still else 0
+        self.clean = clean and not self.left
+
+    def result(self, shape):
+        """(Tessellation, sides, warnings); solids that are still open are left out if there are others."""
+        mesh, sides, warnings = self.mesh, self.sides, []
+        if self.filled:
+            names = face_names(self.filled)
+            warnings.append("OpenCASCADE left gaps in the triangles of %s; they were filled" % names)
+        if self.still:
+            broken = np.unique(sides[mesh.triangle_face[self.still[0]]])
+            broken = broken[broken > 0]
+            if len(broken) == len(mesh.shape.Solids):
+                raise open_shape(shape, self.before, *self.fault)
+            names = ", ".join(entity_name(3, int(number)) for number in broken)
+            warnings.append("%s left out: %s" % (names, open_shape(shape, mesh, *self.still).message))
+            sides = np.where(np.isin(sides, broken), 0, sides)
+        return mesh, sides, warnings
 
 
 def finer_for_walls(shape, mesh, sides, linear, angular):
@@ -124,13 +166,20 @@ def deflections(shape, options):
 
 
 def outward(mesh, sides, warnings):
-    """Sides with inside-out solids (negative volume) turned round."""
+    """Sides with inside-out solids (negative volume) turned round, and solids without a volume left out."""
     count = len(mesh.shape.Solids)
     volumes = solid_volumes(mesh.points, mesh.triangles, sides[mesh.triangle_face], count)
-    for number in np.flatnonzero(volumes <= 0.0) + 1:
-        name = entity_name(3, int(number))
-        if volumes[number - 1] == 0.0:
-            raise MeshError("plc", "no_volume", "%s encloses no volume" % name, entity=name)
+    present = np.isin(np.arange(1, count + 1), sides)
+    flat = np.abs(volumes) <= FLAT * mesh.shape.BoundBox.DiagonalLength**3
+    if flat[present].all():
+        name = entity_name(3, int(np.flatnonzero(present)[0]) + 1)
+        raise MeshError("plc", "no_volume", "%s encloses no volume" % name, entity=name)
+    for number in (np.flatnonzero(((volumes < 0.0) | flat) & present) + 1).tolist():
+        name = entity_name(3, number)
+        if flat[number - 1]:
+            warnings.append("%s encloses no volume; it is left out" % name)
+            sides = np.where(sides == number, 0, sides)
+            continue
         warnings.append("%s is inside out (negative volume); it was turned round" % name)
         mine = (sides == number) & (sides[:, :1] != sides[:, 1:])
         flipped = np.where(mine[:, ::-1], number, np.where(mine, 0, sides))

@@ -9,13 +9,16 @@ from .placement import global_shape
 CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep", ".brp", ".fcstd")
 
 
-def read_shape(path):
+def read_shape(path, warnings=None):
     """Part shape of a .step .stp .iges .igs .brep or .FCStd file; InputError when it cannot be read.
 
-    Of an FCStd file: its only visible solid object, or a compound of several (see solid_objects()).
+    Of an FCStd file: its only visible solid object, or a compound of several (see solid_objects()). Faces
+    without a solid are sewn to solids where they close (sewing.py). warnings: list that takes what was done.
     """
     find_freecad()
     import Part
+
+    from .sewing import with_solids
 
     path = os.fspath(path)
     suffix = os.path.splitext(path)[1].lower()
@@ -32,7 +35,7 @@ def read_shape(path):
         raise InputError("plc", "unreadable", "FreeCAD cannot read %s: %s" % (path, error)) from error
     if shape.isNull():
         raise InputError("plc", "unreadable", "FreeCAD finds nothing in %s" % path)
-    return shape
+    return with_solids(shape, [] if warnings is None else warnings)
 
 
 def shape_of_document(path):

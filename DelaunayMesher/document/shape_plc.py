@@ -35,7 +35,11 @@ class ShapePlc:
         self.contacts = find_contacts(mesh, sides)
         self.geometry = Geometry(mesh, keep)
         self._aliases = {}
-        groups = groups_of_solids(mesh.shape, sides, self.contacts)
+        groups = [
+            group
+            for group in groups_of_solids(mesh.shape, sides, self.contacts)
+            if np.isin(group, sides).all()
+        ]
         self.plcs = [self.plc_of(group) for group in groups]
         warnings = [*warnings, *self.geometry.warnings]
         loose = (sides[mesh.triangle_face] == 0).all(axis=1)

@@ -86,7 +86,8 @@ def tessellate(shape, linear, angular):
     blocks += face_nodes
     points = np.concatenate(blocks)
     starts = np.concatenate([[0], np.cumsum([len(block) for block in blocks])])
-    tolerance = max(1e-7, 1e-9 * shape.BoundBox.DiagonalLength)
+    diagonal = shape.BoundBox.DiagonalLength
+    tolerance = max(min(1e-7, 1e-7 * diagonal), 1e-9 * diagonal)  # mm; OCC's own is 1e-7
     root = merge_points(points, tolerance)
     used, compact = np.unique(root, return_inverse=True)
     compact = compact.reshape(-1)
