@@ -59,36 +59,9 @@ def gear(teeth=10, inner=15.0, outer=20.0, width=12.0, rounding=1.2):
     return body.cut(Part.makeCylinder(6, width)).removeSplitter().Solids[0]
 
 
-def blade(length=60.0, chord=24.0, thickness=7.0, twist=30.0):
-    """A twisted blade: B-spline sections with round leading and trailing edges, lofted."""
-    import Part
-    from FreeCAD import Vector
-
-    sections = []
-    for share in (0.0, 0.5, 1.0):
-        turn, scale = math.radians(twist * share), 1 - 0.35 * share
-        points = []
-        for step in range(24):
-            angle = 2 * math.pi * step / 24
-            x = scale * chord / 2 * math.cos(angle)
-            camber = 0.06 * scale * chord * (1 - (2 * x / (scale * chord)) ** 2)
-            y = scale * thickness / 2 * math.sin(angle) * (1 + 0.25 * math.cos(angle)) + camber
-            points.append(
-                Vector(
-                    x * math.cos(turn) - y * math.sin(turn),
-                    x * math.sin(turn) + y * math.cos(turn),
-                    length * share,
-                )
-            )
-        curve = Part.BSplineCurve()
-        curve.interpolate(Points=points, PeriodicFlag=True)
-        sections.append(Part.Wire(curve.toShape()))
-    return Part.makeLoft(sections, True).Solids[0]
-
-
 def parts():
     """{name: function that makes the shape}"""
-    from parts import PARTS
+    from parts import PARTS, blade
 
     return {
         "box": PARTS["box"],

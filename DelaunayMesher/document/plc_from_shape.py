@@ -20,7 +20,11 @@ from .tessellation import face_sides, tessellate
 
 LINEAR_SHARE = 0.02  # of the element size
 WALL_SHARE = 0.1  # of the thickness of the thinnest solid
-COARSEST, FINEST = 1.0 / 500.0, 1.0 / 3000.0  # linear deflection as shares of the diagonal; OCC is slow below
+SMALLEST_SHARE = 0.08  # of the smallest size that the user gives anywhere
+COARSEST, FINEST = (
+    1.0 / 1250.0,
+    1.0 / 3000.0,
+)  # linear deflection as shares of the diagonal; OCC is slow below
 ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
 FLAT = 1e-14  # volume over the diagonal's cube: none but rounding
 # Tried in turn until the triangles close: (factor on the linear, factor on the angular deflection).
@@ -156,13 +160,24 @@ def check_solid(shape):
 
 
 def deflections(shape, options):
-    """(linear mm, angular rad): a share of the element size, finer for many elements per circle."""
+    """(linear mm, angular rad): a share of the element size, finer for many elements per circle.
+
+    Facets farther from a twisted face than a fraction of the elements on it make meshes that fold.
+    """
     diagonal = shape.BoundBox.DiagonalLength
     size = getattr(options, "max_size", None) or diagonal / AUTOMATIC_FRACTION
     per_circle = getattr(options, "elements_per_circle", None) or 0.0
     angular = min(ANGULAR, np.pi / per_circle) if per_circle > 0 else ANGULAR
-    linear = min(max(LINEAR_SHARE * size, FINEST * diagonal), COARSEST * diagonal)
-    return linear, max(angular, FINEST_ANGULAR)
+    linear = min(LINEAR_SHARE * size, SMALLEST_SHARE * smallest_given(options, size), COARSEST * diagonal)
+    return max(linear, FINEST * diagonal), max(angular, FINEST_ANGULAR)
+
+
+def smallest_given(options, size):
+    """The smallest of all sizes given for parts of the shape, and `size`."""
+    if options is None:
+        return size
+    values = [] if options.size_values is None else options.size_values
+    return min([size, *options.sizes.values(), *(region.size for region in options.regions), *values])
 
 
 def outward(mesh, sides, warnings):

@@ -23,6 +23,30 @@ def lofted():
     return Part.makeLoft([section(0, 20, 14), section(15, 14, 14), section(35, 18, 10)], True)
 
 
+def blade(length=60.0, chord=24.0, thickness=7.0, twist=30.0):
+    """A twisted blade: B-spline sections with round leading and trailing edges, lofted."""
+    sections = []
+    for share in (0.0, 0.5, 1.0):
+        turn, scale = math.radians(twist * share), 1 - 0.35 * share
+        points = []
+        for step in range(24):
+            angle = 2 * math.pi * step / 24
+            x = scale * chord / 2 * math.cos(angle)
+            camber = 0.06 * scale * chord * (1 - (2 * x / (scale * chord)) ** 2)
+            y = scale * thickness / 2 * math.sin(angle) * (1 + 0.25 * math.cos(angle)) + camber
+            points.append(
+                Vector(
+                    x * math.cos(turn) - y * math.sin(turn),
+                    x * math.sin(turn) + y * math.cos(turn),
+                    length * share,
+                )
+            )
+        curve = Part.BSplineCurve()
+        curve.interpolate(Points=points, PeriodicFlag=True)
+        sections.append(Part.Wire(curve.toShape()))
+    return Part.makeLoft(sections, True).Solids[0]
+
+
 def plate_with_holes(count=7):
     """A plate with count * count holes."""
     plate = Part.makeBox(100, 100, 10)

@@ -6,7 +6,7 @@ import numpy as np
 import Part
 import pytest
 from FreeCAD import Matrix, Placement, Rotation, Vector
-from parts import PARTS, lofted
+from parts import PARTS, blade, lofted
 from scipy.interpolate import BSpline
 
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
@@ -17,6 +17,7 @@ from DelaunayMesher.document.plc_from_shape import convert, plc_from_shape
 from DelaunayMesher.document.touching import segments_on_triangles
 from DelaunayMesher.errors import MeshError
 from DelaunayMesher.options import MeshOptions
+from DelaunayMesher.quality import dihedral_angles
 
 
 def check_closed(plc):
@@ -341,3 +342,12 @@ def test_the_given_shape_keeps_its_own_triangulation():
     before = len(shape.Faces[0].getFacesFromSubElement("Face", 1)[1])
     plc_from_shape(shape)
     assert len(shape.Faces[0].getFacesFromSubElement("Face", 1)[1]) == before
+
+
+@pytest.mark.parametrize(
+    "options", [{"growth": 0.4}, {"growth": 0.1}, {"growth": 0.3, "sizes": {"Face1": 0.4}}]
+)
+def test_a_twisted_blade_far_larger_than_its_finest_elements(options):
+    """Its facets must follow the surface closer than the finest elements need, or strips of it fold."""
+    mesh = mesh_shape(blade(), MeshOptions(max_size=9, optimise=False, **options))
+    assert dihedral_angles(mesh.points, mesh.tets).min() > 19.99
