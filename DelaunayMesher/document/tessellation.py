@@ -17,6 +17,8 @@ from .merge_points import merge_points
 from .strips import is_narrow, strip_facets
 
 INTERIOR = ("Internal", "External")
+ONE_TURN = 2.02 * np.pi
+ROUND = (Part.Cylinder, Part.Cone, Part.Sphere, Part.Toroid, Part.SurfaceOfRevolution)
 
 
 def vectors_to_array(vectors):
@@ -76,6 +78,8 @@ def tessellate(shape, linear, angular):
     facets = [
         strip_facets(face, [lines[edge] for edge in face_edges[number]])
         if number in narrow
+        else ([], [])
+        if laps_itself(face)
         else face.getFacesFromSubElement("Face", 1)
         for number, face in enumerate(faces)
     ]
@@ -111,6 +115,15 @@ def tessellate(shape, linear, angular):
         collapsed=collapsed,
         face_nodes=face_nodes,
     )
+
+
+def laps_itself(face):
+    """Whether a face goes round its surface more than once: its edges were put on it a turn apart.
+
+    OCC's triangles of such a face lie on each other; without any it is filled from its outline (filling.py).
+    """
+    u0, u1, _, _ = face.ParameterRange
+    return u1 - u0 > ONE_TURN and isinstance(face.Surface, ROUND)
 
 
 def incidences(faces, edges):

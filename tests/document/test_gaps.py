@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import Part
@@ -10,6 +11,7 @@ from FreeCAD import Rotation, Vector
 from parts import PARTS
 
 from DelaunayMesher import pipeline
+from DelaunayMesher.document import tessellation
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.filling import fill
 from DelaunayMesher.document.plc_from_shape import convert, fault_of
@@ -189,3 +191,24 @@ def test_a_solid_that_cannot_be_meshed_is_left_out(monkeypatch):
     assert any(text.startswith("Solid2 left out: boundary: cannot be done") for text in mesh.warnings)
     with pytest.raises(MeshError, match="cannot be done"):
         pipeline.run(apart.Solids[1], {"max_size": 5.0})
+
+
+def test_a_face_that_laps_itself_is_made_from_its_outline(monkeypatch):
+    """Its edges lie on the surface's parameters a turn apart; OCC covers it five times then."""
+    turned = SimpleNamespace(ParameterRange=(-0.5 * math.pi, 2 * math.pi, 0.0, 1.0), Surface=Part.Cylinder())
+    assert tessellation.laps_itself(turned)
+    assert not any(map(tessellation.laps_itself, PARTS["torus"]().Faces))
+    rounded = Part.makeBox(10, 10, 10)
+    rounded = rounded.makeFillet(3, [rounded.Edges[0], rounded.Edges[1], rounded.Edges[4]])
+    for number, face in enumerate(rounded.Faces):
+        monkeypatch.setattr(
+            tessellation,
+            "laps_itself",
+            lambda other, c=face.CenterOfMass: other.CenterOfMass.isEqual(c, 1e-6),
+        )
+        plc = convert(rounded).plc
+        plc.check()
+        assert plc.warnings == [
+            "OpenCASCADE left gaps in the triangles of Face%d; they were filled" % (number + 1)
+        ]
+        assert volume_of(rounded) == pytest.approx(rounded.Volume, rel=0.02)
