@@ -26,12 +26,9 @@ OPTIONS = "CLICK_TO_MESH"  # environment variable that tells the window what to 
 def in_window():
     """Inside FreeCAD: one line of JSON for each run."""
     import drive
-    import FreeCAD
 
     options = json.loads(os.environ[OPTIONS])
-    file = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
-    part = file.getObject("Bracket")
-    drive.view_all()
+    part = drive.open_bracket()
     for order in options["orders"]:
         for _ in range(options["repeat"]):
             for name, mesher in (("ours", ours), ("Gmsh HXT", gmsh)):
@@ -39,7 +36,7 @@ def in_window():
                 row = measured(target, finish)
                 row.update(mesher=name, order=order, elements=target.FemMesh.VolumeCount)
                 drive.say("ROW", json.dumps(row))
-                file.removeObject(target.Name)
+                part.Document.removeObject(target.Name)
                 part.ViewObject.show()
                 drive.wait(0.3)
 
@@ -68,12 +65,8 @@ def measured(target, finish):
 def ours(part, size, order):
     """(mesh object, what the click on Mesh starts)"""
     import drive
-    import FreeCADGui
 
-    drive.select(part)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    drive.wait(0.3)
-    panel = drive.panel()
+    panel = drive.open_panel(part)
     panel.options_box.fields["max_size"].write(size)
     panel.options_box.fields["order"].set(order)
 

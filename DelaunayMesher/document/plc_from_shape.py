@@ -145,15 +145,13 @@ def check_solid(shape):
         raise MeshError("plc", "null_shape", "the object has no shape; recompute it, or select another")
     if not shape.Solids:
         kind = shape.ShapeType.lower()
-        hint = (
-            "its faces close: make a solid of it" if shape.isClosed() else "close it and make a solid of it"
-        )
-        raise MeshError(
-            "plc",
-            "not_a_solid",
-            "the shape is a %s without a solid (%d faces); %s (Part: Convert to solid)"
-            % (kind, len(shape.Faces), hint),
-        )
+        if not shape.Faces:
+            hint = "no faces; extrude or pad it (Part: Extrude, PartDesign: Pad)"
+        elif shape.isClosed():
+            hint = "faces: %d; they close, make a solid of them (Part: Convert to solid)" % len(shape.Faces)
+        else:
+            hint = "faces: %d; close it and make a solid of it (Part: Convert to solid)" % len(shape.Faces)
+        raise MeshError("plc", "not_a_solid", "the shape is a %s without a solid (%s)" % (kind, hint))
     bounds = shape.BoundBox
     if not bounds.isValid() or not np.isfinite(bounds.DiagonalLength):
         raise MeshError("plc", "not_finite", "the shape has no finite extent")

@@ -20,7 +20,7 @@ class MeshSolid:
         }
 
     def IsActive(self):
-        return selected_part() is not None or selected_mesh() is not None
+        return any(find() is not None for find in (selected_part, selected_mesh, selected_surface_mesh))
 
     def Activated(self):
         from . import start_mesh
@@ -28,6 +28,14 @@ class MeshSolid:
         mesh = selected_mesh()
         if mesh is not None:
             start_mesh.edit(mesh)
+        elif selected_surface_mesh() is not None:
+            start_mesh.show_error(
+                tr(
+                    "%s is a mesh of triangles, not a solid. Make one of it first: in the workbench Part, "
+                    "menu Part, 'Create shape from mesh', then 'Convert to solid'."
+                )
+                % selected_surface_mesh().Label
+            )
         else:
             start_mesh.create(selected_part())
 
@@ -232,6 +240,12 @@ def selected_part():
     if len(items) != 1 or items[0].isDerivedFrom("Fem::FemMeshObject"):
         return None
     return body_of(items[0]) if is_part(items[0]) else None
+
+
+def selected_surface_mesh():
+    """The only selected mesh of triangles (an opened STL file for instance), or None."""
+    items = selected_objects()
+    return items[0] if len(items) == 1 and items[0].isDerivedFrom("Mesh::Feature") else None
 
 
 def body_of(item):

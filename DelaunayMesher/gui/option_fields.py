@@ -106,11 +106,18 @@ class QuantityField(Field):
         FreeCADGui.ExpressionBinding(self.widget).bind(target, self.option.property_name)
 
 
+class ShortSpinBox(QtGui.QDoubleSpinBox):
+    """12 instead of 12.00."""
+
+    def textFromValue(self, value):
+        return self.locale().toString(float(value), "g", 6)
+
+
 class NumberField(Field):
     """Number without a unit."""
 
     def make(self):
-        widget = QtGui.QDoubleSpinBox()
+        widget = ShortSpinBox()
         widget.setMinimumWidth(NARROW)
         widget.setDecimals(2)
         widget.setRange(self.option.minimum + (0.01 if self.option.open_minimum else 0), self.option.maximum)

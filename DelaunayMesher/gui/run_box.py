@@ -3,30 +3,11 @@
 from PySide import QtCore, QtGui
 
 from ..errors import MeshCancelled
+from .explain import explain, stage_name
 from .texts import icon, tr
 
 LOG_LINES = 500
-STAGES = {
-    "read": "Reading",
-    "plc": "Reading the shape",
-    "sizing": "Size field",
-    "curves": "Curves",
-    "surfaces": "Surfaces",
-    "boundary": "Boundary recovery",
-    "refinement": "Refinement",
-    "optimisation": "Optimisation",
-    "order": "Second order",
-    "certificate": "Certificate",
-    "write": "FEM mesh",
-    "quality": "Quality figures",
-    "solve": "CalculiX",
-}
 BAD, WARN, GOOD = "#c0392b", "#b9770e", "#1e8449"
-
-
-def stage_name(stage):
-    """What people read for a stage of the pipeline."""
-    return tr(STAGES.get(stage, stage))
 
 
 def number(value):
@@ -134,8 +115,10 @@ class RunBox(QtGui.QWidget):
             self.status.setText(tr("Cancelled") if solving else tr("Cancelled; the old mesh was kept"))
             self.write(tr("Cancelled"), WARN)
             return
-        self.status.setText(tr("Not solved") if solving else tr("Failed; the old mesh was kept"))
-        self.write(str(error), BAD)
+        had_mesh = bool(self.result.text())
+        failed = tr("Failed; the old mesh was kept") if had_mesh else tr("Failed")
+        self.status.setText(tr("Not solved") if solving else failed)
+        self.write(explain(error), BAD)
 
     def take_over(self):
         """FreeCAD is going to copy and draw the mesh: the window stands still meanwhile."""

@@ -13,12 +13,16 @@ def create(part):
     """
     if not extension_is_there() or panel_is_open():
         return
+    from ..document.placement import own_shape
+    from ..document.plc_from_shape import check_solid
     from ..errors import MeshError
     from . import preferences
+    from .explain import explain
 
     document = part.Document
     document.openTransaction(tr("Delaunay mesh"))
     try:
+        check_solid(own_shape(part))
         arguments = "".join(", %s=%r" % item for item in preferences.options_for(part).items())
         FreeCADGui.addModule("DelaunayMesher.document")
         FreeCADGui.doCommand(
@@ -27,7 +31,7 @@ def create(part):
         )
     except MeshError as error:
         document.abortTransaction()
-        show_error(str(error))
+        show_error("%s\n\n%s" % (part.Label, explain(error)))
         return
     document.commitTransaction()
     FreeCADGui.Selection.clearSelection()

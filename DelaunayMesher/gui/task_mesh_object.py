@@ -237,6 +237,9 @@ class OptionsBox(QtGui.QWidget):
             return
         self.fields["max_size"].show_automatic(largest)
         self.fields["min_size"].show_automatic(largest / estimate.MIN_FRACTION)
+        if not self.shape.Solids:
+            self.count.setText("")
+            return
         count = estimate.two_digits(estimate.uniform_count(self.shape, largest))
         self.count.setText(tr("At least %s tetrahedra, more round curves and walls") % number(count))
 

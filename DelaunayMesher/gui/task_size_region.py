@@ -31,7 +31,7 @@ class SizeRegionPanel:
         self.target = target
         target.Document.openTransaction("Size region")
         self.form = QtGui.QWidget()
-        self.form.setWindowTitle(target.Label)
+        self.form.setWindowTitle(tr("Size region"))
         self.form.setWindowIcon(QtGui.QIcon(icon("size_region")))
         self.grid = QtGui.QGridLayout(self.form)
         self.grid.setColumnStretch(1, 1)
@@ -39,7 +39,7 @@ class SizeRegionPanel:
         self.kind.addItems([tr(KIND_LABELS[kind]) for kind in KINDS])
         self.kind.setCurrentIndex(list(KINDS).index(target.Kind))
         self.kind.currentIndexChanged.connect(self.change_kind)
-        self.labels, self.fields = {}, {}
+        self.labels, self.fields, self.lines = {}, {}, {}
         self.grid.addWidget(QtGui.QLabel(tr("Kind:")), 0, 0)
         self.grid.addWidget(self.kind, 0, 1)
         for name in POINTS:
@@ -62,7 +62,13 @@ class SizeRegionPanel:
         for path in paths:
             field = self.make_field(path)
             field.setToolTip(tip)
-            column.addWidget(field)
+            self.lines[path] = QtGui.QWidget()
+            line = QtGui.QHBoxLayout(self.lines[path])
+            line.setContentsMargins(0, 0, 0, 0)
+            if "." in path:
+                line.addWidget(QtGui.QLabel(path[-1]))
+            line.addWidget(field, 1)
+            column.addWidget(self.lines[path])
             self.fields[path] = field
 
     def make_field(self, path):
@@ -102,9 +108,9 @@ class SizeRegionPanel:
     def show_used(self):
         """Only the fields that the kind needs."""
         kind = self.target.Kind
-        for path, field in self.fields.items():
+        for path, line in self.lines.items():
             name = path.partition(".")[0]
-            field.setVisible(name in USED[kind] or name in ("Size", "Transition"))
+            line.setVisible(name in USED[kind] or name in ("Size", "Transition"))
         for name in ("Point", "SecondPoint", "Radius"):
             self.labels[name].setVisible(name in USED[kind])
             self.labels[name].setText(tr(LABELS.get((kind, name), "")) + ":")

@@ -1,40 +1,25 @@
 """Runs in FreeCAD's window (see make_pictures.py): the steps of docs/gui.md, one picture each."""
 
-import os
-import sys
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "tests", "gui"), os.path.dirname(os.path.abspath(__file__))]
-
-import drive  # noqa: E402
-import FemGui  # noqa: E402
-import FreeCAD  # noqa: E402
-import FreeCADGui  # noqa: E402
-import ObjectsFem  # noqa: E402
-from drive import wait, wait_until  # noqa: E402
-from small_picture import picture  # noqa: E402
+import drive
+import FreeCADGui
+from drive import wait, wait_until
+from small_picture import picture
 
 
 def run(panel):
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     drive.view_all()
 
 
 def open_part():
-    document = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
-    part = document.getObject("Bracket")
-    part.ViewObject.show()
-    FemGui.setActiveAnalysis(ObjectsFem.makeAnalysis(document, "Analysis"))
+    part = drive.open_bracket()
+    drive.add_analysis(part.Document)
     drive.view_all()
     return part
 
 
 def mesh_panel(part):
-    drive.select(part)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    panel = drive.panel()
+    panel = drive.open_panel(part)
     panel.options_box.preview_button.click()
     wait_until(lambda: panel.preview.overlay is not None)
     picture("preview")
@@ -83,8 +68,7 @@ def quality():
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.5)
+    drive.activate()
     part = open_part()
     target = mesh_panel(part)
     refinement(part, target)

@@ -1,17 +1,10 @@
 """Runs in FreeCAD's window (see make_pictures.py): the steps of docs/tutorial.md, one picture each."""
 
-import os
-import sys
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "tests", "gui"), os.path.dirname(os.path.abspath(__file__))]
-
-import drive  # noqa: E402
-import FreeCAD  # noqa: E402
-import FreeCADGui  # noqa: E402
-from drive import say, wait, wait_until  # noqa: E402
-from PySide import QtGui  # noqa: E402
-from small_picture import picture  # noqa: E402
+import drive
+import FreeCADGui
+from drive import say, wait, wait_until
+from PySide import QtGui
+from small_picture import picture
 
 FORCE = 8000.0  # N
 
@@ -68,10 +61,7 @@ def button(kind):
 
 
 def mesh_and_solve(part):
-    drive.select(part)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.5)
-    panel = drive.panel()
+    panel = drive.open_panel(part)
     picture("4_mesh")
     panel.run_box.solve_button.click()
     wait_until(lambda: not panel.running)
@@ -92,12 +82,8 @@ def bring_to_view(box):
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.5)
-    document = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
-    part = document.getObject("Bracket")
-    part.ViewObject.show()
-    drive.view_all()
+    drive.activate()
+    part = drive.open_bracket()
     fix_the_foot(part)
     pull_at_the_bore(part)
     mesh_and_solve(part)

@@ -60,6 +60,66 @@
       <translation>Die Analyse mit CalculiX berechnen und die Spannungen zeigen; vernetzt zuerst, wenn es noch kein Netz gibt</translation>
     </message>
     <message>
+      <source>%s is a mesh of triangles, not a solid. Make one of it first: in the workbench Part, menu Part, 'Create shape from mesh', then 'Convert to solid'.</source>
+      <translation>%s ist ein Netz aus Dreiecken, kein Volumenkörper. Zuerst einen daraus machen: im Arbeitsbereich Part, Menü Formteil, „Form aus Netz erstellen“, dann „In Festkörper umwandeln“.</translation>
+    </message>
+    <message>
+      <source>Reading</source>
+      <translation>Einlesen</translation>
+    </message>
+    <message>
+      <source>Reading the shape</source>
+      <translation>Form einlesen</translation>
+    </message>
+    <message>
+      <source>Size field</source>
+      <translation>Größenfeld</translation>
+    </message>
+    <message>
+      <source>Curves</source>
+      <translation>Kurven</translation>
+    </message>
+    <message>
+      <source>Surfaces</source>
+      <translation>Flächen</translation>
+    </message>
+    <message>
+      <source>Boundary recovery</source>
+      <translation>Rand herstellen</translation>
+    </message>
+    <message>
+      <source>Refinement</source>
+      <translation>Verfeinerung</translation>
+    </message>
+    <message>
+      <source>Optimisation</source>
+      <translation>Optimierung</translation>
+    </message>
+    <message>
+      <source>Second order</source>
+      <translation>Zweite Ordnung</translation>
+    </message>
+    <message>
+      <source>Certificate</source>
+      <translation>Nachweis</translation>
+    </message>
+    <message>
+      <source>FEM mesh</source>
+      <translation>FEM-Netz</translation>
+    </message>
+    <message>
+      <source>Quality figures</source>
+      <translation>Qualitätswerte</translation>
+    </message>
+    <message>
+      <source>CalculiX</source>
+      <translation>CalculiX</translation>
+    </message>
+    <message>
+      <source>Options</source>
+      <translation>Optionen</translation>
+    </message>
+    <message>
       <source>%.4g to %.4g: %d elements</source>
       <translation>%.4g bis %.4g: %d Elemente</translation>
     </message>
@@ -168,58 +228,6 @@
       <translation>Dieses Teil hat noch kein Netzobjekt. Zuerst „Diesen Volumenkörper vernetzen“ benutzen.</translation>
     </message>
     <message>
-      <source>Reading</source>
-      <translation>Einlesen</translation>
-    </message>
-    <message>
-      <source>Reading the shape</source>
-      <translation>Form einlesen</translation>
-    </message>
-    <message>
-      <source>Size field</source>
-      <translation>Größenfeld</translation>
-    </message>
-    <message>
-      <source>Curves</source>
-      <translation>Kurven</translation>
-    </message>
-    <message>
-      <source>Surfaces</source>
-      <translation>Flächen</translation>
-    </message>
-    <message>
-      <source>Boundary recovery</source>
-      <translation>Rand herstellen</translation>
-    </message>
-    <message>
-      <source>Refinement</source>
-      <translation>Verfeinerung</translation>
-    </message>
-    <message>
-      <source>Optimisation</source>
-      <translation>Optimierung</translation>
-    </message>
-    <message>
-      <source>Second order</source>
-      <translation>Zweite Ordnung</translation>
-    </message>
-    <message>
-      <source>Certificate</source>
-      <translation>Nachweis</translation>
-    </message>
-    <message>
-      <source>FEM mesh</source>
-      <translation>FEM-Netz</translation>
-    </message>
-    <message>
-      <source>Quality figures</source>
-      <translation>Qualitätswerte</translation>
-    </message>
-    <message>
-      <source>CalculiX</source>
-      <translation>CalculiX</translation>
-    </message>
-    <message>
       <source>Run</source>
       <translation>Lauf</translation>
     </message>
@@ -250,6 +258,14 @@
     <message>
       <source>Cancel</source>
       <translation>Abbrechen</translation>
+    </message>
+    <message>
+      <source>Failed; the old mesh was kept</source>
+      <translation>Fehlgeschlagen; das alte Netz bleibt</translation>
+    </message>
+    <message>
+      <source>Failed</source>
+      <translation>Fehlgeschlagen</translation>
     </message>
     <message>
       <source>FreeCAD takes the mesh over ...</source>
@@ -290,10 +306,6 @@
     <message>
       <source>Not solved</source>
       <translation>Nicht berechnet</translation>
-    </message>
-    <message>
-      <source>Failed; the old mesh was kept</source>
-      <translation>Fehlgeschlagen; das alte Netz bleibt</translation>
     </message>
     <message>
       <source>Largest displacement %.4g mm</source>

@@ -10,6 +10,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 OUTPUT = os.environ["OUTPUT"]
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
 def say(*what):
@@ -92,6 +93,65 @@ def view_all():
     view.viewIsometric()
     view.fitAll()
     wait(0.2)
+
+
+def activate(name="DelaunayMesherWorkbench"):
+    """Change to a workbench."""
+    FreeCADGui.activateWorkbench(name)
+    wait(0.5)
+
+
+def add_analysis(document):
+    """A new analysis, which becomes the active one."""
+    import FemGui
+    import ObjectsFem
+
+    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
+    FemGui.setActiveAnalysis(analysis)
+    return analysis
+
+
+def open_bracket():
+    """The example part in a document of its own, visible."""
+    document = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
+    part = document.getObject("Bracket")
+    part.ViewObject.show()
+    view_all()
+    return part
+
+
+def open_panel(part):
+    """'Mesh this solid' on a part; returns the panel."""
+    select(part)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.5)
+    return panel()
+
+
+def run(opened):
+    """Press Mesh in a panel and wait for the end; returns the panel."""
+    opened.run_box.button.click()
+    wait_until(lambda: not opened.running)
+    return opened
+
+
+def message_of(action):
+    """Text of the message box that `action` opens; the box is closed."""
+    texts = []
+
+    def close():
+        box = QtGui.QApplication.activeModalWidget()
+        if box is None:
+            QtCore.QTimer.singleShot(100, close)
+            return
+        texts.append(box.text())
+        picture("message", box)
+        box.accept()
+
+    QtCore.QTimer.singleShot(300, close)
+    action()
+    wait(0.2)
+    return texts[0]
 
 
 def panel():

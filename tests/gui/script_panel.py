@@ -1,16 +1,12 @@
 """In FreeCAD's window: mesh a part from the panel, cancel a run in the middle, save, reopen, double click."""
 
 import os
-import sys
 import time
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import drive
 import FemGui
 import FreeCAD
 import FreeCADGui
-import ObjectsFem
 from drive import say, wait, wait_until
 from PySide import QtCore, QtGui
 
@@ -47,18 +43,14 @@ def make_part():
     cut = document.addObject("Part::Cut", "Cut")
     cut.Base, cut.Tool = box, drill
     document.recompute()
-    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
-    FemGui.setActiveAnalysis(analysis)
+    analysis = drive.add_analysis(document)
     drive.view_all()
     return document, cut, analysis
 
 
 def mesh_from_panel(document, cut, analysis):
     """The command makes an object in the analysis, the panel meshes it; returns the object."""
-    drive.select(cut)
-    FreeCADGui.runCommand(COMMAND)
-    wait(0.3)
-    panel = drive.panel()
+    panel = drive.open_panel(cut)
     target = panel.target
     assert target in analysis.Group and target.Shape == cut
     assert FreeCADGui.ActiveDocument.getInEdit()
@@ -109,8 +101,7 @@ def errors_are_shown(target):
     panel = drive.panel()
     panel.options_box.fields["max_size"].write(1.0)
     panel.options_box.fields["min_size"].set(5.0)
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     text = panel.run_box.log.toPlainText()
     say("refused:", text)
     assert "larger than" in text
@@ -146,8 +137,7 @@ def undo_a_run(target):
     panel = drive.panel()
     first = figures(target)
     panel.options_box.fields["max_size"].write(2.0)
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     second = figures(target)
     say("first run:", first[:3], "second run:", second[:3])
     assert second[1] < first[1] and target.Document.UndoNames[0] == "Delaunay mesh run"
@@ -204,8 +194,7 @@ def close_while_running(document, target):
 
 def main():
     command_is_in_fem_workbench()
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     document, cut, analysis = make_part()
     target = mesh_from_panel(document, cut, analysis)
     drive.view_all()

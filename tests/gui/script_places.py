@@ -2,15 +2,10 @@
 their faces.
 """
 
-import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-
 import drive
 import FreeCAD
 import FreeCADGui
-from drive import say, wait, wait_until
+from drive import say, wait
 
 TURNED = FreeCAD.Placement(FreeCAD.Vector(100, 0, 0), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 90))
 
@@ -59,8 +54,7 @@ def mesh(document, chosen, element):
     wait(0.2)
     panel = drive.panel()
     panel.options_box.fields["max_size"].write(5.0)
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     assert panel.target.FemMesh.VolumeCount > 20, panel.run_box.log.toPlainText()
     assert panel.reject()
     wait(0.1)
@@ -104,8 +98,7 @@ def nodes_are_found(target):
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     document = make_assembly()
     for chosen, element, meshed, own, everywhere in CASES:
         target = mesh(document, chosen, element)

@@ -1,28 +1,15 @@
 """In FreeCAD's window: preview of the sizes, preferences, a part inside a body, an expression."""
 
-import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-
 import drive
 import FreeCAD
 import FreeCADGui
 from drive import say, wait, wait_until
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-
 
 def open_bracket():
     """The example part with its panel."""
-    document = FreeCAD.openDocument(os.path.join(ROOT, "resources", "examples", "bracket.FCStd"))
-    part = document.getObject("Bracket")
-    part.ViewObject.show()
-    drive.view_all()
-    drive.select(part)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    return part, drive.panel()
+    part = drive.open_bracket()
+    return part, drive.open_panel(part)
 
 
 def preview(part, panel):
@@ -37,8 +24,7 @@ def preview(part, panel):
     panel.options_box.fields["growth"].write(0.3)
     wait(0.2)
     assert part.ViewObject.Visibility and panel.preview.overlay is None
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     real = panel.target.FemMesh.VolumeCount
     say("estimated", estimate, "made", real)
     assert 0.6 * real < estimate < 1.5 * real
@@ -74,10 +60,7 @@ def preferences(part):
     fields["order"].set(1)
     fields["growth"].set(0.5)
     page.saveSettings()
-    drive.select(part)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    target = drive.panel().target
+    target = drive.open_panel(part).target
     assert target.ElementOrder == "1st" and abs(target.Growth - 0.5) < 1e-9
     drive.panel().reject()
     wait(0.2)
@@ -95,12 +78,8 @@ def body_with_box():
     box = document.addObject("PartDesign::AdditiveBox", "Block")
     body.addObject(box)
     document.recompute()
-    drive.select(body)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    panel = drive.panel()
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    panel = drive.open_panel(body)
+    drive.run(panel)
     say("body:", panel.target.Summary)
     assert panel.target.FemMesh.VolumeCount > 1000 and panel.target.Shape == body
     panel.reject()
@@ -115,8 +94,7 @@ def body_with_box():
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     part, panel = open_bracket()
     preview(part, panel)
     expression(panel)

@@ -1,14 +1,9 @@
 """In FreeCAD's window: refine a face, mesh again, look at the quality panel, click on an element, cut."""
 
-import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-
 import drive
 import FreeCAD
 import FreeCADGui
-from drive import say, wait, wait_until
+from drive import say, wait
 
 
 def make_mesh():
@@ -31,8 +26,7 @@ def make_mesh():
 def run_panel():
     """Press Mesh and wait."""
     panel = drive.panel()
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     say(panel.target.Summary)
 
 
@@ -101,8 +95,7 @@ def quality_panel(target):
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     part, target = make_mesh()
     refine(part, target)
     quality_panel(target)

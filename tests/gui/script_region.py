@@ -1,14 +1,11 @@
 """In FreeCAD's window: a size region round a vertex, its panel, drag and drop, undo, saved and reopened."""
 
 import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import drive
 import FreeCAD
 import FreeCADGui
-from drive import say, wait, wait_until
+from drive import say, wait
 
 
 def make_mesh():
@@ -34,8 +31,7 @@ def make_mesh():
 
 def run_panel():
     panel = drive.panel()
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     say(panel.target.Summary)
 
 
@@ -122,8 +118,7 @@ def reopen(document, names):
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     box, target = make_mesh()
     region = refine_here(box, target)
     cancel_takes_back(region)

@@ -1,12 +1,6 @@
 """In FreeCAD's window: from a part to stresses with FreeCAD's own analysis objects and CalculiX."""
 
-import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-
 import drive
-import FemGui
 import FreeCAD
 import FreeCADGui
 import ObjectsFem
@@ -23,8 +17,7 @@ def make_analysis():
     beam = document.addObject("Part::Box", "Beam")
     beam.Length, beam.Width, beam.Height = LENGTH, SIDE, SIDE
     document.recompute()
-    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
-    FemGui.setActiveAnalysis(analysis)
+    analysis = drive.add_analysis(document)
     steel = ObjectsFem.makeMaterialSolid(document, "Steel")
     card = steel.Material
     card.update(Name="Steel", YoungsModulus="%g MPa" % YOUNG, PoissonRatio="0.30")
@@ -44,10 +37,7 @@ def make_analysis():
 
 def mesh_and_solve(beam, analysis):
     """From the panel, second order; the solver is made by the way.  Returns the result object."""
-    drive.select(beam)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    panel = drive.panel()
+    panel = drive.open_panel(beam)
     panel.options_box.fields["order"].set(2)
     panel.run_box.solve_button.click()
     wait_until(lambda: not panel.running)
@@ -77,8 +67,7 @@ def cancel(panel):
     """CalculiX is stopped, the results of before stay."""
     panel.run_box.solve_button.click()
     assert panel.running
-    panel.run_box.button.click()
-    wait_until(lambda: not panel.running)
+    drive.run(panel)
     say(panel.run_box.status.text())
     assert panel.run_box.status.text() == "Cancelled"
 
@@ -121,8 +110,7 @@ def newest_solver(target, analysis):
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     beam, analysis = make_analysis()
     panel = mesh_and_solve(beam, analysis)
     found, stress = extremes(newest(analysis.Group, "Fem::FemResultObject"))

@@ -5,15 +5,12 @@ import os
 import sys
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-
 import drive
 import FreeCAD
 import FreeCADGui
 from drive import say, wait
 from PySide import QtCore, QtGui
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 LONGEST_START = 0.25  # seconds; some 0.02 on a machine that does nothing else
 
 
@@ -32,25 +29,6 @@ def start_is_quick():
     assert taken < LONGEST_START
 
 
-def message_of(action):
-    """Text of the message box that `action` opens; the box is closed."""
-    texts = []
-
-    def close():
-        box = QtGui.QApplication.activeModalWidget()
-        if box is None:
-            QtCore.QTimer.singleShot(100, close)
-            return
-        texts.append(box.text())
-        drive.picture("message", box)
-        box.accept()
-
-    QtCore.QTimer.singleShot(300, close)
-    action()
-    wait(0.2)
-    return texts[0]
-
-
 def missing_extension():
     """Without the compiled part the command says what to do, and nothing is made."""
     from DelaunayMesher import extension
@@ -64,28 +42,11 @@ def missing_extension():
     document.recompute()
     drive.select(box)
     loaded, extension.load = extension.load, fail
-    text = message_of(lambda: FreeCADGui.runCommand("DelaunayMesher_MeshSolid"))
+    text = drive.message_of(lambda: FreeCADGui.runCommand("DelaunayMesher_MeshSolid"))
     extension.load = loaded
     say(text)
     assert "setup.sh" in text and "pip install" in text and "no _core" in text
     assert document.Objects == [box]
-
-
-def nothing_to_mesh():
-    """A face without a solid is refused in the panel, with a reason."""
-    document = FreeCAD.newDocument("Face")
-    plane = document.addObject("Part::Plane", "Plane")
-    document.recompute()
-    drive.select(plane)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    panel = drive.panel()
-    panel.run_box.button.click()
-    drive.wait_until(lambda: not panel.running)
-    text = panel.run_box.log.toPlainText()
-    say(text)
-    assert "solid" in text
-    panel.reject()
 
 
 def narrow_panel():
@@ -124,21 +85,21 @@ def package_is_valid():
     """FreeCAD's Addon Manager finds in package.xml what is there."""
     from DelaunayMesher import __version__
 
-    metadata = FreeCAD.Metadata(os.path.join(ROOT, "package.xml"))
+    metadata = FreeCAD.Metadata(os.path.join(drive.ROOT, "package.xml"))
     workbench = metadata.Content["workbench"][0]
     say(metadata.Name, metadata.Version, workbench.Classname)
     assert metadata.Version == __version__
     assert workbench.Classname in FreeCADGui.listWorkbenches()
+    assert metadata.Name and metadata.Description and metadata.Maintainer[0]["email"]
+    assert all("example" not in url["location"] for url in metadata.Urls)  # it would be installed from there
     for name in (metadata.Icon, workbench.Icon, metadata.License[0]["file"]):
-        assert os.path.isfile(os.path.join(ROOT, name)), name
+        assert os.path.isfile(os.path.join(drive.ROOT, name)), name
 
 
 def main():
     start_is_quick()
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     missing_extension()
-    nothing_to_mesh()
     narrow_panel()
     preferences_dialog()
     package_is_valid()

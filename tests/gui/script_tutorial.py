@@ -1,10 +1,5 @@
 """In FreeCAD's window: the clicks of docs/tutorial.md, from a bare part to stresses."""
 
-import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-
 import drive
 import FemGui
 import FreeCAD
@@ -53,10 +48,7 @@ def force(document, part):
 
 def solve(part, made):
     """The stress of a bar that is pulled: force over section."""
-    drive.select(part)
-    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
-    wait(0.3)
-    panel = drive.panel()
+    panel = drive.open_panel(part)
     panel.run_box.solve_button.click()
     wait_until(lambda: not panel.running)
     say(panel.run_box.log.toPlainText(), panel.target.Summary)
@@ -73,8 +65,7 @@ def solve(part, made):
 
 
 def main():
-    FreeCADGui.activateWorkbench("DelaunayMesherWorkbench")
-    wait(0.3)
+    drive.activate()
     document, part = make_part()
     fix(document, part)
     solve(part, force(document, part))

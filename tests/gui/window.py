@@ -9,7 +9,8 @@ import shutil
 import signal
 import subprocess
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
 SETTINGS = """<?xml version="1.0" encoding="UTF-8" standalone="no" ?>
 <FCParameters><FCParamGroup Name="Root"><FCParamGroup Name="BaseApp"><FCParamGroup Name="Preferences">
 <FCParamGroup Name="General"><FCText Name="AutoloadModule">PartWorkbench</FCText>
@@ -43,8 +44,10 @@ def make_home(home, language="English"):
 def run_in_window(script, home, output, seconds=300, language="English"):
     """Run a script in FreeCAD's window; returns all it printed.  `output`: folder for its files."""
     make_home(str(home), language)
+    folders = [os.path.dirname(os.path.abspath(script)), HERE]  # scripts import drive and each other
     environment = {
         **os.environ,
+        "PYTHONPATH": os.pathsep.join(folders),
         "HOME": str(home),
         "OUTPUT": str(output),
         "QTWEBENGINE_DISABLE_SANDBOX": "1",

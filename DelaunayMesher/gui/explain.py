@@ -1,0 +1,35 @@
+"""Stages and errors in the words that the window uses."""
+
+from .texts import tr
+
+STAGES = {
+    "read": "Reading",
+    "plc": "Reading the shape",
+    "sizing": "Size field",
+    "curves": "Curves",
+    "surfaces": "Surfaces",
+    "boundary": "Boundary recovery",
+    "refinement": "Refinement",
+    "optimisation": "Optimisation",
+    "order": "Second order",
+    "certificate": "Certificate",
+    "write": "FEM mesh",
+    "quality": "Quality figures",
+    "solve": "CalculiX",
+    "options": "Options",
+}
+
+
+def stage_name(stage):
+    """What people read for a stage of the pipeline."""
+    return tr(STAGES.get(stage, stage))
+
+
+def explain(error):
+    """A MeshError for people: the stage by its name, options as the panel calls them."""
+    from ..options import OPTIONS
+
+    text = str(error)[len(error.stage) :]
+    for option in OPTIONS:
+        text = text.replace("--" + option.name.replace("_", "-"), "\u201c%s\u201d" % tr(option.label))
+    return stage_name(error.stage) + text
