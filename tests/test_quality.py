@@ -89,6 +89,18 @@ def test_straight_second_order_element():
     assert quality.scaled_jacobian(points, np.arange(10)[None]) == pytest.approx(1)
 
 
+def test_only_curved_elements_need_coefficients():
+    straight, bent = second_order(CORNER), second_order(CORNER)
+    bent[7] += (0.05, 0.02, 0.0)
+    points = np.concatenate([straight, bent]) + 1000.0  # far away, where midpoints are rounded
+    tets = np.arange(20).reshape(2, 10)
+    assert quality.is_curved(points, tets).tolist() == [False, True]
+    lengths = quality.scaled_jacobian(points, tets[:, :4])
+    smallest = quality.jacobian_coefficients(points, tets).min(axis=1) / (6 * quality.volumes(points, tets))
+    assert quality.scaled_jacobian(points, tets) == pytest.approx(lengths * smallest)
+    assert smallest[1] < 0.99
+
+
 def test_bernstein_coefficients_bound_the_jacobian():
     random = np.random.default_rng(5)
     for bend in (0.02, 0.1, 0.3):
