@@ -3,24 +3,24 @@
 namespace dm {
 namespace {
 
-struct Contraction {
-  double worst = kInverted;
-  std::vector<Index> before;
-  std::vector<Tet> after;
-};
+constexpr double kNormalTurn = 0.9;  // cosine of the largest angle between old and new normals
+constexpr Triangle kNothing{-1, -1, -1};
 
 bool contains(const Tet& t, Index v) { return t[0] == v || t[1] == v || t[2] == v || t[3] == v; }
+bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+}  // namespace
 
 // A triangle of the cone that is new: it holds `to` and was no face of the star.
-bool makes_forbidden_face(const EditMesh& mesh, const Contraction& plan, Index to) {
+bool Contractor::makes_forbidden_face(const Plan& plan, Index to) const {
   for (const Tet& t : plan.after)
     for (const auto& f : EditMesh::kFace) {
       const Triangle c{t[f[0]], t[f[1]], t[f[2]]};
-      if (c[0] != to && c[1] != to && c[2] != to) continue;
-      if (!mesh.on_one_face(c[0], c[1], c[2])) continue;
-      bool old = false;
-      for (Index b : plan.before) {
-        const Tet& o = mesh.tet(b);
+      if (!contains(c, to) || !mesh_.on_one_face(c[0], c[1], c[2])) continue;
+      bool old = std::any_of(boundary_.begin(), boundary_.end(),
+                             [&](const Triangle& b) { return sorted(b) == sorted(c); });
+      for (const Index b : plan.before) {
+        const Tet& o = mesh_.tet(b);
         old = old || (contains(o, c[0]) && contains(o, c[1]) && contains(o, c[2]));
       }
       if (!old) return true;
@@ -28,39 +28,163 @@ bool makes_forbidden_face(const EditMesh& mesh, const Contraction& plan, Index t
   return false;
 }
 
-// The point `from` goes to `to`.
-void plan_contraction(EditMesh& mesh, Index from, Index to, Contraction& best) {
-  if (!mesh.interior(from)) return;
-  const auto star = mesh.star(from);
-  if (star.size() > EditMesh::kMaxReplace) return;
-  Contraction plan;
+// The new tetrahedra; false when one is not positive or the worst is not below `worst`.
+bool Contractor::plan(Index from, Index to, double worst, Plan& plan) {
+  const auto star = mesh_.star(from);
+  if (star.size() > EditMesh::kMaxReplace) return false;
   plan.before.assign(star.begin(), star.end());
-  AngleCosines before, after;
-  for (Index t : plan.before) {
-    before.include(mesh.cosines(mesh.tet(t)));
-    if (contains(mesh.tet(t), to)) continue;
-    Tet cone = mesh.tet(t);
-    cone[mesh.corner_index(t, from)] = to;
-    after.include(mesh.cosines(cone));
-    if (badness(after) >= best.worst) return;
+  for (const Index t : plan.before) {
+    plan.old_angles.include(mesh_.cosines(mesh_.tet(t)));
+    Tet cone = mesh_.tet(t);
+    if (contains(cone, to)) {
+      // Its two faces become one: none of them may be a triangle of the boundary.
+      if (mesh_.marked(t, mesh_.corner_index(t, to))) return false;
+      continue;
+    }
+    cone[mesh_.corner_index(t, from)] = to;
+    plan.new_angles.include(mesh_.cosines(cone));
+    if (badness(plan.new_angles) >= worst) return false;
     plan.after.push_back(cone);
+    plan.solids.push_back(mesh_.solid(t));
   }
-  plan.worst = badness(after);
-  if (plan.worst >= badness(before) - 1e-3 || !keeps_angles(before, after)) return;
-  if (makes_forbidden_face(mesh, plan, to)) return;
-  best = std::move(plan);
+  plan.worst = badness(plan.new_angles);
+  return !plan.after.empty();
 }
 
-}  // namespace
+bool Contractor::list_triangles(Index from) {
+  triangles_.clear();
+  for (const Index t : mesh_.star(from))
+    for (int i = 0; i < 4; ++i) {
+      const Tet& c = mesh_.tet(t);
+      if (!mesh_.marked(t, i) || c[i] == from) continue;
+      const auto& f = EditMesh::kFace[i];
+      const Index k = mesh_.find_triangle(c[f[0]], c[f[1]], c[f[2]]);
+      if (k < 0) return false;
+      if (std::find(triangles_.begin(), triangles_.end(), k) == triangles_.end()) triangles_.push_back(k);
+    }
+  return true;
+}
 
-bool collapse_best(EditMesh& mesh, Index tet) {
-  Contraction best;
-  const Tet corners = mesh.tet(tet);
-  for (Index from : corners)
-    for (Index to : corners)
-      if (from != to) plan_contraction(mesh, from, to, best);
+// A neighbour of both ends that is in no tetrahedron with both: the edges to it would become one.
+bool Contractor::shares_other_neighbours(Index from, Index to) {
+  std::vector<Index> near, own;
+  for (const Index t : mesh_.star(from)) {
+    auto& list = contains(mesh_.tet(t), to) ? near : own;
+    list.insert(list.end(), mesh_.tet(t).begin(), mesh_.tet(t).end());
+  }
+  for (auto* list : {&near, &own}) std::sort(list->begin(), list->end());
+  for (const Index t : mesh_.star(to))
+    for (const Index v : mesh_.tet(t))
+      if (v != to && v != from && std::binary_search(own.begin(), own.end(), v) &&
+          !std::binary_search(near.begin(), near.end(), v))
+        return true;
+  return false;
+}
+
+// The turned triangles beside the old ones of their CAD face.
+bool Contractor::keeps_surface(Index from, Index to) {
+  const auto normal = [&](const Triangle& t) {
+    return normalized(area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2])));
+  };
+  const auto sagitta = [&](Index face, Index v, Index w) {
+    const Vec3 middle = 0.5 * (mesh_.point(v) + mesh_.point(w));
+    return distance(middle, geometry_.project_to_face(face, middle));
+  };
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (turned_[i] == kNothing) continue;
+    const Triangle& old = mesh_.triangle(triangles_[i]);
+    if (mesh_.find_triangle(turned_[i][0], turned_[i][1], turned_[i][2]) >= 0) return false;
+    if (dot(normal(old), normal(turned_[i])) < kNormalTurn) return false;
+    const Index face = mesh_.triangle_face(triangles_[i]);
+    if (geometry_.is_plane(face)) continue;
+    double most = 0;
+    for (std::size_t j = 0; j < triangles_.size(); ++j)
+      if (mesh_.triangle_face(triangles_[j]) == face)
+        for (const Index v : mesh_.triangle(triangles_[j]))
+          if (v != from) most = std::max(most, sagitta(face, from, v));
+    for (const Index v : turned_[i])
+      if (v != to && sagitta(face, to, v) > 1.2 * most) return false;
+  }
+  return true;
+}
+
+// What becomes of the boundary when `from` goes to `to`; false when that is not allowed.
+bool Contractor::plan_boundary(Index from, Index to) {
+  turned_.clear();
+  boundary_.clear();
+  segments_.clear();
+  const Entity entity = mesh_.entity(from);
+  if (entity.dimension == 3) return true;
+  if (entity.dimension == 0 || mesh_.pinched(from) || mesh_.pinched(to) || !list_triangles(from))
+    return false;
+  if (entity.dimension == 1) {
+    const Index k = mesh_.find_segment(from, to);
+    if (k < 0 || mesh_.segment_edge(k) != entity.index) return false;
+    segments_ = {k};
+  }
+  std::size_t vanishing = 0;
+  for (const Index k : triangles_) {
+    Triangle t = mesh_.triangle(k);
+    for (const Index v : t) {
+      const Index s = entity.dimension == 1 && v != to && v != from ? mesh_.find_segment(from, v) : -1;
+      if (s >= 0 && std::find(segments_.begin(), segments_.end(), s) == segments_.end())
+        segments_.push_back(s);
+    }
+    if (contains(t, to)) {
+      ++vanishing;
+      t = kNothing;
+    } else {
+      std::replace(t.begin(), t.end(), from, to);
+      boundary_.push_back(t);
+    }
+    turned_.push_back(t);
+  }
+  if (entity.dimension == 2 ? vanishing != 2 : segments_.size() != 2 || vanishing == 0) return false;
+  return !shares_other_neighbours(from, to) && keeps_surface(from, to);
+}
+
+void Contractor::apply(const Plan& plan) {
+  for (std::size_t i = 0; i < turned_.size(); ++i)
+    mesh_.set_triangle(triangles_[i], turned_[i], mesh_.triangle_face(triangles_[i]));
+  if (!segments_.empty()) {
+    const Segment gone = mesh_.segment(segments_[0]);
+    Segment next = mesh_.segment(segments_[1]);
+    for (Index& v : next)
+      if (v == gone[0])
+        v = gone[1];
+      else if (v == gone[1])
+        v = gone[0];
+    mesh_.set_segment(segments_[0], {-1, -1});
+    mesh_.set_segment(segments_[1], next);
+  }
+  mesh_.replace(plan.before, plan.after, plan.solids, boundary_);
+}
+
+bool Contractor::collapse_best(Index tet) {
+  Plan best;
+  const Tet corners = mesh_.tet(tet);
+  boundary_.clear();
+  turned_.clear();
+  segments_.clear();
+  for (const Index from : corners)
+    for (const Index to : corners) {
+      if (from == to || !mesh_.interior(from)) continue;
+      Plan found;
+      if (!plan(from, to, best.worst, found)) continue;
+      if (found.worst >= badness(found.old_angles) - 1e-3) continue;
+      if (!keeps_angles(found.old_angles, found.new_angles) || makes_forbidden_face(found, to)) continue;
+      best = std::move(found);
+    }
   if (best.after.empty()) return false;
-  mesh.replace(best.before, best.after);
+  apply(best);
+  return true;
+}
+
+bool Contractor::contract(Index from, Index to) {
+  Plan found;
+  if (!plan_boundary(from, to) || !plan(from, to, kInverted, found)) return false;
+  if (makes_forbidden_face(found, to)) return false;
+  apply(found);
   return true;
 }
 

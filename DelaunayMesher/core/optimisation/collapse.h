@@ -1,14 +1,48 @@
-// Edge contraction: an interior point goes to the other end of one of its edges and leaves the mesh.
+// Edge contraction: a point goes to the other end of one of its edges and leaves the mesh.
 //
 // The star of the point becomes the cone from the other end over the star's faces; it is valid exactly when
-// every new tetrahedron is positively oriented.  Guard as for flips.  Cost: some microseconds.
+// every new tetrahedron is positively oriented.  A point on a CAD face goes to another point on that face,
+// one on a CAD edge along the edge, each with its boundary triangles: they turn by less than 25 degrees and
+// lie as close to the CAD as the old ones, and the two points have no common neighbours but those at their
+// edge. No interior triangle with all corners on one CAD face appears.  Cost: some microseconds.
 #pragma once
 
 #include "optimisation/edit_mesh.h"
+#include "plc/geometry.h"
 
 namespace dm {
 
-// Contracts the edge of `tet` that leaves the best worst element, if any is allowed.
-bool collapse_best(EditMesh& mesh, Index tet);
+class Contractor {
+ public:
+  Contractor(EditMesh& mesh, const Geometry& geometry) : mesh_(mesh), geometry_(geometry) {}
+
+  // Contracts the edge of `tet` that leaves the best worst element, if the guard of flips allows any.  Only
+  // interior points leave.
+  bool collapse_best(Index tet);
+  // The point `from` goes to `to`, whatever the angles are.
+  bool contract(Index from, Index to);
+
+ private:
+  struct Plan {
+    double worst = kInverted;
+    std::vector<Index> before, solids;
+    std::vector<Tet> after;
+    AngleCosines old_angles, new_angles;
+  };
+  bool plan(Index from, Index to, double worst, Plan& plan);
+  bool makes_forbidden_face(const Plan& plan, Index to) const;
+  bool plan_boundary(Index from, Index to);
+  bool list_triangles(Index from);
+  bool shares_other_neighbours(Index from, Index to);
+  bool keeps_surface(Index from, Index to);
+  void apply(const Plan& plan);
+
+  EditMesh& mesh_;
+  const Geometry& geometry_;
+  std::vector<Index> triangles_;    // of the boundary at the point
+  std::vector<Triangle> turned_;    // what they become; corners -1: nothing
+  std::vector<Triangle> boundary_;  // those that stay
+  std::vector<Index> segments_;     // at the point: the one that vanishes, the one that follows it
+};
 
 }  // namespace dm

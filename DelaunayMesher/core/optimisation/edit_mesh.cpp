@@ -5,13 +5,6 @@
 namespace dm {
 namespace {
 
-Triangle sorted(Triangle t) {
-  if (t[0] > t[1]) std::swap(t[0], t[1]);
-  if (t[1] > t[2]) std::swap(t[1], t[2]);
-  if (t[0] > t[1]) std::swap(t[0], t[1]);
-  return t;
-}
-
 Triangle face_corners(const Tet& tet, int face) {
   const auto& f = EditMesh::kFace[face];
   return {tet[f[0]], tet[f[1]], tet[f[2]]};
@@ -147,7 +140,8 @@ void EditMesh::list_boundary() {
   boundary_listed_ = true;
   for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
     triangle_of_[sorted(mesh_.triangles[k])] = static_cast<Index>(k);
-  for (const Segment& s : mesh_.segments) segments_.insert({std::min(s[0], s[1]), std::max(s[0], s[1])});
+  for (std::size_t k = 0; k < mesh_.segments.size(); ++k)
+    segment_of_[sorted(mesh_.segments[k])] = static_cast<Index>(k);
 }
 
 Index EditMesh::find_triangle(Index a, Index b, Index c) {
@@ -156,22 +150,72 @@ Index EditMesh::find_triangle(Index a, Index b, Index c) {
   return it == triangle_of_.end() ? -1 : it->second;
 }
 
-bool EditMesh::is_segment(Index a, Index b) {
+Index EditMesh::find_segment(Index a, Index b) {
   list_boundary();
-  return segments_.count({std::min(a, b), std::max(a, b)}) > 0;
+  const auto it = segment_of_.find(sorted(Segment{a, b}));
+  return it == segment_of_.end() ? -1 : it->second;
 }
 
-void EditMesh::set_triangle(Index k, const Triangle& corners) {
+Index EditMesh::add_point(const Vec3& p, Entity entity, std::span<const Index> faces) {
+  if (in_trial_) note(kNewPoint, vertex_count(), static_cast<Index>(point_faces_.size()));
+  mesh_.points.push_back(p);
+  mesh_.point_entity.push_back(entity);
+  vertex_tet_.push_back(-1);
+  pinched_.push_back(0);
+  point_faces_.insert(point_faces_.end(), faces.begin(), faces.end());
+  face_start_.push_back(static_cast<Index>(point_faces_.size()));
+  stars_listed_ = false;
+  return vertex_count() - 1;
+}
+
+void EditMesh::set_triangle(Index k, const Triangle& corners, Index face) {
   list_boundary();
-  triangle_of_.erase(sorted(mesh_.triangles[k]));
+  const Triangle& old = mesh_.triangles[k];
+  if (in_trial_) {
+    note(kTriangle, k, mesh_.triangle_face[k]);
+    changes_.back().tet = {old[0], old[1], old[2], -1};
+  }
+  const auto it = triangle_of_.find(sorted(old));
+  if (it != triangle_of_.end() && it->second == k) triangle_of_.erase(it);
   mesh_.triangles[k] = corners;
-  triangle_of_[sorted(corners)] = k;
+  mesh_.triangle_face[k] = face;
+  if (corners[0] >= 0) triangle_of_[sorted(corners)] = k;
+}
+
+void EditMesh::set_segment(Index k, const Segment& ends) {
+  list_boundary();
+  const Segment& old = mesh_.segments[k];
+  if (in_trial_) {
+    note(kSegment, k);
+    changes_.back().tet = {old[0], old[1], -1, -1};
+  }
+  const auto it = segment_of_.find(sorted(old));
+  if (it != segment_of_.end() && it->second == k) segment_of_.erase(it);
+  mesh_.segments[k] = ends;
+  if (ends[0] >= 0) segment_of_[sorted(ends)] = k;
+}
+
+void EditMesh::add_triangle(const Triangle& corners, Index face) {
+  list_boundary();
+  if (in_trial_) note(kNewTriangle, 0);
+  triangle_of_[sorted(corners)] = static_cast<Index>(mesh_.triangles.size());
+  mesh_.triangles.push_back(corners);
+  mesh_.triangle_face.push_back(face);
+}
+
+void EditMesh::add_segment(const Segment& ends, Index edge) {
+  list_boundary();
+  if (in_trial_) note(kNewSegment, 0);
+  segment_of_[sorted(ends)] = static_cast<Index>(mesh_.segments.size());
+  mesh_.segments.push_back(ends);
+  mesh_.segment_edge.push_back(edge);
 }
 
 Index EditMesh::take_slot() {
   if (!free_.empty()) {
     const Index t = free_.back();
     free_.pop_back();
+    if (in_trial_) note(kTaken, t), note_tet(t);
     return t;
   }
   mesh_.tets.emplace_back();
@@ -180,10 +224,16 @@ Index EditMesh::take_slot() {
   bad_.emplace_back();
   marks_.emplace_back();
   stamp_.emplace_back(0);
+  if (in_trial_) {
+    note(kGrown, slot_count() - 1);
+    mesh_.tets.back()[0] = kRemoved;
+    note_tet(slot_count() - 1);
+  }
   return slot_count() - 1;
 }
 
-std::span<const Index> EditMesh::replace(std::span<const Index> before, std::span<const Tet> after) {
+std::span<const Index> EditMesh::replace(std::span<const Index> before, std::span<const Tet> after,
+                                         std::span<const Index> solids, std::span<const Triangle> boundary) {
   struct OpenFace {
     Triangle key;
     Index link;  // outside: the neighbour; inside: 4 * tet + face of a new tetrahedron
@@ -201,19 +251,31 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
     }
   stars_listed_ = false;
   const Index solid = mesh_.tet_solid[before[0]];
+  const auto on_boundary = [&](const Triangle& key) {
+    return std::any_of(boundary.begin(), boundary.end(), [&](const Triangle& t) { return sorted(t) == key; });
+  };
+  if (in_trial_)
+    for (Index t : before) note_tet(t);
   for (Index t : before) {  // a point that gets no new tetrahedron below has left the mesh
     for (Index v : mesh_.tets[t])
-      if (vertex_tet_[v] == t) vertex_tet_[v] = -1;
+      if (vertex_tet_[v] == t) {
+        if (in_trial_) note(kVertexTet, v, t);
+        vertex_tet_[v] = -1;
+      }
     mesh_.tets[t][0] = kRemoved;
   }
   // Its own slots first: neighbours stay close in memory.
-  for (auto it = before.rbegin(); it != before.rend(); ++it) free_.push_back(*it);
+  for (auto it = before.rbegin(); it != before.rend(); ++it) {
+    if (in_trial_) note(kFreed, *it);
+    free_.push_back(*it);
+  }
   created_.clear();
-  for (const Tet& corners : after) {
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    const Tet& corners = after[k];
     const Index t = take_slot();
     created_.push_back(t);
     mesh_.tets[t] = corners;
-    mesh_.tet_solid[t] = solid;
+    mesh_.tet_solid[t] = solids.empty() ? solid : solids[k];
     bad_[t] = compute_bad(corners);
     marks_[t] = 0;
     for (int i = 0; i < 4; ++i) {
@@ -221,15 +283,25 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
       const auto end = open.begin() + count;
       const auto match = std::find_if(open.begin(), end, [&](const OpenFace& f) { return f.key == key; });
       if (match == end) {
-        open[count++] = {key, 4 * t + i, false, false};
+        open[count++] = {key, 4 * t + i, on_boundary(key), false};
         continue;
       }
       mesh_.neighbours[t][i] = match->link;
-      if (match->link >= 0) mesh_.neighbours[match->link / 4][match->link % 4] = 4 * t + i;
-      if (match->marked) marks_[t] |= static_cast<std::uint8_t>(1 << i);
+      if (match->link >= 0) {
+        Index& link = mesh_.neighbours[match->link / 4][match->link % 4];
+        if (in_trial_) note(kLink, match->link, link);
+        link = 4 * t + i;
+      }
+      if (match->marked) {
+        marks_[t] |= static_cast<std::uint8_t>(1 << i);
+        if (!match->outside) marks_[match->link / 4] |= static_cast<std::uint8_t>(1 << match->link % 4);
+      }
       *match = open[--count];
     }
-    for (Index v : corners) vertex_tet_[v] = t;
+    for (Index v : corners) {
+      if (in_trial_) note(kVertexTet, v, vertex_tet_[v]);
+      vertex_tet_[v] = t;
+    }
   }
   for (int k = 0; k < count; ++k) {  // new faces of the boundary
     if (open[k].outside) continue;
@@ -239,7 +311,28 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
   return created_;
 }
 
+// Leaves out the triangles and segments that were removed.
+void EditMesh::close_boundary() {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k) {
+    if (mesh_.triangles[k][0] < 0) continue;
+    mesh_.triangles[count] = mesh_.triangles[k];
+    mesh_.triangle_face[count++] = mesh_.triangle_face[k];
+  }
+  mesh_.triangles.resize(count);
+  mesh_.triangle_face.resize(count);
+  count = 0;
+  for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
+    if (mesh_.segments[k][0] < 0) continue;
+    mesh_.segments[count] = mesh_.segments[k];
+    mesh_.segment_edge[count++] = mesh_.segment_edge[k];
+  }
+  mesh_.segments.resize(count);
+  mesh_.segment_edge.resize(count);
+}
+
 void EditMesh::finish() {
+  close_boundary();
   std::vector<Index> place(mesh_.tets.size(), -1);
   Index count = 0;
   for (Index t = 0; t < slot_count(); ++t)

@@ -27,6 +27,14 @@ struct IndexHash {
   }
 };
 
+inline Triangle sorted(Triangle t) {
+  if (t[0] > t[1]) std::swap(t[0], t[1]);
+  if (t[1] > t[2]) std::swap(t[1], t[2]);
+  if (t[0] > t[1]) std::swap(t[0], t[1]);
+  return t;
+}
+inline Segment sorted(const Segment& s) { return {std::min(s[0], s[1]), std::max(s[0], s[1])}; }
+
 class EditMesh {
  public:
   explicit EditMesh(VolumeMesh& mesh);
@@ -36,6 +44,20 @@ class EditMesh {
   static constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   static constexpr int kMaxReplace = 64;  // tetrahedra of one replacement, old and new each
   static constexpr Index kRemoved = -1;
+  enum ChangeKind {
+    kTet,
+    kLink,
+    kPoint,
+    kVertexTet,
+    kFreed,
+    kTaken,
+    kGrown,
+    kNewPoint,
+    kTriangle,
+    kNewTriangle,
+    kSegment,
+    kNewSegment
+  };
 
   Index slot_count() const { return static_cast<Index>(mesh_.tets.size()); }
   bool removed(Index tet) const { return mesh_.tets[tet][0] == kRemoved; }
@@ -75,19 +97,39 @@ class EditMesh {
   // Do all three points lie on one CAD face?  No interior triangle may be made of them.
   bool on_one_face(Index a, Index b, Index c) const;
 
-  void set_point(Index v, const Vec3& p) { mesh_.points[v] = p; }
-  void set_bad(Index t, double bad) { bad_[t] = bad; }
+  // A new point on these CAD faces (sorted), which no tetrahedron uses yet.
+  Index add_point(const Vec3& p, Entity entity, std::span<const Index> faces);
+  // Puts v at p; its tetrahedra, whose badness then is `bad`.
+  void move_point(Index v, const Vec3& p, std::span<const Index> tets, std::span<const float> bad);
   // The boundary triangle with these corners, -1 if none; its CAD face; is (a, b) a segment of a CAD edge?
   Index find_triangle(Index a, Index b, Index c);
   const Triangle& triangle(Index k) const { return mesh_.triangles[k]; }
   Index triangle_face(Index k) const { return mesh_.triangle_face[k]; }
-  bool is_segment(Index a, Index b);
-  // Other corners for a boundary triangle; its tetrahedra are to be replaced along with it.
-  void set_triangle(Index k, const Triangle& corners);
+  Index find_segment(Index a, Index b);
+  bool is_segment(Index a, Index b) { return find_segment(a, b) >= 0; }
+  Index segment_edge(Index k) const { return mesh_.segment_edge[k]; }
+  const Segment& segment(Index k) const { return mesh_.segments[k]; }
+  // Changes of the boundary; its tetrahedra are to be replaced along with it.  Corners -1 remove it.
+  void set_triangle(Index k, const Triangle& corners, Index face);
+  void set_segment(Index k, const Segment& ends);
+  void add_triangle(const Triangle& corners, Index face);
+  void add_segment(const Segment& ends, Index edge);
   // Puts `after` in the place of `before`.  Precondition: one solid, no marked inner face; same outer faces
   // but for those without neighbour: they may change, and the new ones are marked. Returns the slots of the
   // new tetrahedra; the span is valid until the next call.
-  std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after);
+  std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after) {
+    return replace(before, after, {}, {});
+  }
+  // The same for several solids, one for each new tetrahedron, with the new triangles of the boundary.
+  std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after,
+                                 std::span<const Index> solids, std::span<const Triangle> boundary);
+
+  // A trial: all changes after begin_trial() are kept by end_trial(true) and taken back by end_trial(false).
+  void begin_trial();
+  void end_trial(bool keep);
+  // Extreme angles of the tetrahedra that the trial has changed, before and now.
+  const AngleCosines& trial_before() const { return trial_before_; }
+  AngleCosines trial_now() const;
 
  private:
   void build_vertex_tets();
@@ -96,6 +138,10 @@ class EditMesh {
   void mark_boundary();
   void list_boundary();
   Index take_slot();
+  void note_tet(Index t);
+  void note(int kind, Index index, Index value = 0);
+  void take_back();
+  void close_boundary();
 
   VolumeMesh& mesh_;
   std::vector<double> bad_;
@@ -104,7 +150,22 @@ class EditMesh {
   std::vector<Index> vertex_tet_, face_start_, point_faces_, free_, stamp_, star_, created_;
   std::vector<Index> star_start_, star_tets_;
   std::unordered_map<Triangle, Index, IndexHash> triangle_of_;  // by sorted corners; filled on first use
-  std::unordered_set<Segment, IndexHash> segments_;
+  std::unordered_map<Segment, Index, IndexHash> segment_of_;    // by sorted ends
+  // What a trial has changed, as it was, in the order of the changes (edit_trial.cpp).
+  struct Change {
+    int kind;
+    Index index, value;
+    Tet tet;
+    std::array<Index, 4> neighbours;
+    Vec3 point;
+    double bad;
+    std::uint8_t marks;
+  };
+  bool in_trial_ = false;
+  std::vector<Change> changes_;
+  std::vector<Index> noted_, touched_;  // per tetrahedron the last trial that changed it; those of this one
+  Index trial_ = 0;
+  AngleCosines trial_before_;
   bool stars_listed_ = false, boundary_listed_ = false;
   Index stamp_value_ = 0;
   AngleCosines first_extremes_;

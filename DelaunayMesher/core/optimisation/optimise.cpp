@@ -2,6 +2,7 @@
 
 #include "optimisation/collapse.h"
 #include "optimisation/flips.h"
+#include "optimisation/rescue.h"
 #include "optimisation/smoothing.h"
 #include "optimisation/spatial_order.h"
 
@@ -13,13 +14,19 @@ constexpr int kMostSweeps = 5;     // while the mean is below
 constexpr double kMeanAngle = 51;  // degrees
 constexpr double kSharpFlip = 35;  // degrees: elements below it are tried in the first round of cheap flips
 constexpr double kMeanFlip = 43;   // in the others
-constexpr int kWorstRounds = 8;    // over the elements below the target
+constexpr int kWorstRounds = 12;   // over the elements below the target
 constexpr int kPollEvery = 128;
 
 class Optimiser {
  public:
   Optimiser(VolumeMesh& mesh, const Geometry& geometry, const OptimiseOptions& options, Context& context)
-      : mesh_(mesh), geometry_(geometry), smoother_(mesh_, geometry), flipper_(mesh_), context_(context) {
+      : mesh_(mesh),
+        geometry_(geometry),
+        smoother_(mesh_, geometry),
+        flipper_(mesh_),
+        contractor_(mesh_, geometry),
+        rescuer_(mesh_, smoother_, flipper_, contractor_, geometry),
+        context_(context) {
     target_ = badness_at(options.target_angle);
   }
 
@@ -84,6 +91,9 @@ class Optimiser {
     std::vector<Index> worst;
     for (Index t = 0; t < mesh_.slot_count(); ++t)
       if (!mesh_.removed(t) && mesh_.bad(t) > target_) worst.push_back(t);
+    std::sort(worst.begin(), worst.end(), [&](Index a, Index b) {
+      return mesh_.bad(a) != mesh_.bad(b) ? mesh_.bad(a) > mesh_.bad(b) : a < b;
+    });
     std::int64_t changes = 0;
     for (std::size_t i = 0; i < worst.size(); ++i) {
       context_.poll(0.9 + 0.1 * (round + static_cast<double>(i) / static_cast<double>(worst.size())) /
@@ -103,7 +113,8 @@ class Optimiser {
       if (!pending()) return changed;
       if (smoother_.smooth_worst(v, 3)) ++report_.smoothed, changed = true;
     }
-    if (round > 0 && pending() && collapse_best(mesh_, t)) ++report_.collapsed, changed = true;
+    if (round > 0 && pending() && contractor_.collapse_best(t)) ++report_.collapsed, changed = true;
+    if (round > 0 && pending() && rescuer_.rescue(t)) ++report_.rescued, changed = true;
     return changed;
   }
 
@@ -111,6 +122,8 @@ class Optimiser {
   const Geometry& geometry_;
   Smoother smoother_;
   Flipper flipper_;
+  Contractor contractor_;
+  Rescuer rescuer_;
   Context& context_;
   double target_ = 0;
   int part_ = 0;

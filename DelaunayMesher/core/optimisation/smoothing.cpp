@@ -8,21 +8,28 @@ bool Smoother::load(Index v, bool soft) {
   const auto star = mesh_.star(v);
   if (star.size() > Fan::kCapacity) return false;
   place_ = mesh_.point(v);
+  entity_ = mesh_.entity(v);
   fan_.start(place_);
-  double reach = 0;
   for (Index t : star) {
     const Tet& c = mesh_.tet(t);
     const auto& f = EditMesh::kFace[mesh_.corner_index(t, v)];
     const Vec3 &a = mesh_.point(c[f[0]]), &b = mesh_.point(c[f[1]]), &d = mesh_.point(c[f[2]]);
     tets_[fan_.count] = t;
     fan_.add(a, b, d);
-    reach += distance(place_, a);
   }
   fan_.close();
+  begin(soft);
+  return true;
+}
+
+void Smoother::begin(bool soft) {
+  double reach = 0;
+  for (int k = 0; k < fan_.count; ++k)
+    reach += distance(place_, fan_.origin + Vec3{fan_.corner[0][k], fan_.corner[1][k], fan_.corner[2][k]});
   size_ = reach / fan_.count;
   soft_ = soft;
+  stride_ = 0.12;
   now_ = fan_score(fan_, place_, soft_, bad_.data());
-  return true;
 }
 
 Vec3 Smoother::gradient() const {
@@ -63,7 +70,7 @@ bool Smoother::keeps_boundary(Index v, const Vec3& p) const {
 bool Smoother::attempt(Index v, const Vec3& p) {
   const FanScore score = fan_score(fan_, p, soft_, trial_bad_.data());
   if (!(score.sum < now_.sum * (1 - 1e-3)) || !keeps_angles(now_.extremes, score.extremes)) return false;
-  if (!mesh_.interior(v) && !keeps_boundary(v, p)) return false;
+  if (v != kNew && entity_.dimension < 3 && !keeps_boundary(v, p)) return false;
   now_ = score;
   place_ = p;
   std::swap(bad_, trial_bad_);
@@ -81,7 +88,7 @@ bool Smoother::centre(Index v) {
 }
 
 bool Smoother::descend(Index v) {
-  const Entity entity = mesh_.entity(v);
+  const Entity entity = entity_;
   Vec3 direction = -gradient();
   if (entity.dimension == 2) {
     const Vec3 n = geometry_.normal(entity.index, place_);
@@ -105,13 +112,20 @@ bool Smoother::descend(Index v) {
 
 bool Smoother::smooth(Index v, bool soft, int steps) {
   if (!load(v, soft)) return false;
-  stride_ = 0.12;
   bool moved = soft && mesh_.interior(v) && centre(v);
   for (int i = 0; i < steps && descend(v); ++i) moved = true;
   if (!moved) return false;
-  mesh_.set_point(v, place_);
-  for (int k = 0; k < fan_.count; ++k) mesh_.set_bad(tets_[k], bad_[k]);
+  mesh_.move_point(v, place_, {tets_.data(), static_cast<std::size_t>(fan_.count)}, bad_);
   return true;
+}
+
+Vec3 Smoother::best_apex(const Fan& fan, const Vec3& start, Entity entity, int steps) {
+  fan_ = fan;
+  entity_ = entity;
+  place_ = start;
+  begin(false);
+  for (int i = 0; i < steps && descend(kNew); ++i) continue;
+  return place_;
 }
 
 }  // namespace dm

@@ -23,12 +23,17 @@ class Smoother {
   bool smooth_soft(Index v, int steps) { return smooth(v, true, steps); }    // p = 2
   bool smooth_worst(Index v, int steps) { return smooth(v, false, steps); }  // p = 16
 
+  // Where the worst tetrahedra from the fan to a new point are best, after some steps from `start`.
+  Vec3 best_apex(const Fan& fan, const Vec3& start, Entity entity, int steps);
+
  private:
   bool smooth(Index v, bool soft, int steps);
   bool load(Index v, bool soft);
+  void begin(bool soft);
   bool attempt(Index v, const Vec3& p);
   bool centre(Index v);
   bool descend(Index v);
+  static constexpr Index kNew = -1;  // a point that is not in the mesh yet
   Vec3 gradient() const;
   bool keeps_boundary(Index v, const Vec3& p) const;
 
@@ -38,6 +43,7 @@ class Smoother {
   std::array<Index, Fan::kCapacity> tets_{};
   double size_ = 0;    // mean distance from the vertex to its neighbours
   double stride_ = 0;  // first trial length, relative to size_
+  Entity entity_;      // what it lies on
   bool soft_ = true;
   Vec3 place_;
   FanScore now_;

@@ -128,7 +128,8 @@ TEST_CASE("contraction removes an interior point that crowds its neighbours") {
   Index worst = 0;
   for (Index t = 0; t < edit.slot_count(); ++t)
     if (edit.bad(t) > edit.bad(worst)) worst = t;
-  CHECK(collapse_best(edit, worst));
+  const Geometry geometry(s.plc, s.records);
+  CHECK(Contractor(edit, geometry).collapse_best(worst));
   edit.finish();
   check_volume_mesh(s.mesh);
   CHECK(s.mesh.points.size() == 63);

@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/tet_geometry.h"
 #include "base/volume_mesh.h"
+#include "optimisation/quality.h"
 #include "plc/geometry.h"
 
 namespace sample {
@@ -67,6 +68,16 @@ inline AngleRange angles(const VolumeMesh& mesh) {
     all = {std::min(all.min, r.min), std::max(all.max, r.max)};
   }
   return all;
+}
+
+// The same while it is being edited.
+template <class Edit>
+AngleRange angles_of(const Edit& mesh) {
+  AngleCosines all;
+  for (Index t = 0; t < mesh.slot_count(); ++t)
+    if (!mesh.removed(t)) all.include(mesh.cosines(mesh.tet(t)));
+  const auto degrees = [](double cosine) { return std::acos(cosine) * 180 / std::numbers::pi; };
+  return {degrees(all.sharp), degrees(all.blunt)};
 }
 
 // The boundary of the mesh as a PLC, each CAD face between solid 1 and the outside.
@@ -164,6 +175,39 @@ inline Sample box(Index n, double noise, std::uint64_t seed = 1) {
     s.records.edges.push_back(r);
   }
   s.plc = boundary_plc(s.mesh, 6, 12);
+  return s;
+}
+
+// box(4) as two solids that share CAD face 6 at x = 2.
+inline Sample two_boxes(double noise, std::uint64_t seed) {
+  auto s = box(4, noise, seed);
+  VolumeMesh& m = s.mesh;
+  const Index n = 4;
+  for (std::size_t v = 0; v < m.points.size(); ++v) {
+    if (static_cast<Index>(v) / ((n + 1) * (n + 1)) != 2) continue;
+    m.points[v].x = 2;
+    Entity& e = m.point_entity[v];
+    e = e.dimension == 3 ? Entity{2, 6} : Entity{0, 0};
+  }
+  for (std::size_t t = 0; t < m.tets.size(); ++t) {
+    double x = 0;
+    for (Index v : m.tets[t]) x += m.points[v].x / 4;
+    m.tet_solid[t] = x > 2 ? 2 : 1;
+  }
+  for (std::size_t t = 0; t < m.tets.size(); ++t)
+    for (int i = 0; i < 4; ++i) {
+      const Index o = m.neighbours[t][i];
+      if (o < 0 || m.tet_solid[t] != 1 || m.tet_solid[o / 4] != 2) continue;
+      const Tet& c = m.tets[t];
+      static constexpr int kFace[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+      m.triangles.push_back({c[kFace[i][0]], c[kFace[i][1]], c[kFace[i][2]]});
+      m.triangle_face.push_back(6);
+    }
+  s.records.faces.push_back({SurfaceKind::plane, {2, 0, 0}, {1, 0, 0}, 0, 0, -1});
+  s.plc = boundary_plc(m, 7, 12);
+  s.plc.face_solids[6] = {1, 2};
+  s.plc.face_solids[1] = {2, 0};
+  s.plc.solid_count = 2;
   return s;
 }
 

@@ -1,0 +1,168 @@
+#include "optimisation/rescue.h"
+
+#include <doctest/doctest.h>
+
+#include "optimisation/check_mesh.h"
+#include "sample_meshes.h"
+
+using namespace dm;
+
+namespace {
+
+struct Tools {
+  const Geometry geometry;
+  EditMesh edit;
+  Smoother smoother;
+  Flipper flipper;
+  Contractor contractor;
+  Inserter inserter;
+  Rescuer rescuer;
+  explicit Tools(sample::Sample& s)
+      : geometry(s.plc, s.records),
+        edit(s.mesh),
+        smoother(edit, geometry),
+        flipper(edit),
+        contractor(edit, geometry),
+        inserter(edit, smoother, geometry),
+        rescuer(edit, smoother, flipper, contractor, geometry) {}
+};
+
+void check(const sample::Sample& s, const Geometry& geometry) {
+  check_volume_mesh(s.mesh);
+  check_on_geometry(s.mesh, geometry, 1e-9);
+}
+
+// A box flattened to half its height: the angles are poor everywhere.
+sample::Sample slab() {
+  auto s = sample::box(4, 0.2, 5);
+  for (Vec3& p : s.mesh.points) p.z *= 0.5;
+  s.records.faces[5].origin.z = 2;
+  for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.5;
+  s.plc = sample::boundary_plc(s.mesh, 6, 12);
+  return s;
+}
+
+bool is_on_boundary(const Entity& e) { return e.dimension < 3; }
+
+}  // namespace
+
+TEST_CASE("points are put inside, on boundary edges, segments and triangles, also between two solids") {
+  for (const bool two : {false, true}) {
+    auto s = two ? sample::two_boxes(0.2, 3) : sample::box(4, 0.2, 3);
+    const double volume = sample::volume(s.mesh);
+    const auto segments = s.mesh.segments.size(), triangles = s.mesh.triangles.size();
+    Tools tools(s);
+    std::array<int, 4> inserted{};  // by the dimension of what the point lies on
+    int on_interface = 0;
+    const Index count = tools.edit.slot_count();
+    for (Index t = 0; t < count; t += 3)
+      for (int place = 0; place < Inserter::kPlaces; ++place) {
+        if (tools.edit.removed(t) || !tools.inserter.insert(t, place)) continue;
+        const Entity e = tools.edit.entity(tools.edit.vertex_count() - 1);
+        ++inserted[e.dimension];
+        on_interface += two && e == Entity{2, 6};
+        CHECK((place == 0) == (e.dimension == 3));
+        break;
+      }
+    for (Index t = 1; t < count; t += 3)
+      for (int place = 1; place < Inserter::kPlaces; ++place) {
+        if (tools.edit.removed(t) || !tools.inserter.insert(t, place)) continue;
+        const Entity e = tools.edit.entity(tools.edit.vertex_count() - 1);
+        ++inserted[e.dimension];
+        on_interface += two && e == Entity{2, 6};
+        break;
+      }
+    CHECK(inserted[3] > 0);
+    CHECK(inserted[2] > 0);
+    CHECK(inserted[1] > 0);
+    CHECK((on_interface > 0) == two);
+    tools.edit.finish();
+    check(s, tools.geometry);
+    CHECK(sample::volume(s.mesh) == doctest::Approx(volume));
+    CHECK(s.mesh.segments.size() == segments + inserted[1]);
+    CHECK(s.mesh.triangles.size() > triangles);
+  }
+}
+
+TEST_CASE("points of CAD faces and edges are contracted along them") {
+  for (const bool two : {false, true}) {
+    auto s = two ? sample::two_boxes(0.1, 3) : sample::box(4, 0.1, 3);
+    const double volume = sample::volume(s.mesh);
+    const auto points = s.mesh.points.size();
+    Tools tools(s);
+    std::array<std::size_t, 4> contracted{};
+    for (Index t = 0; t < tools.edit.slot_count(); ++t) {
+      if (tools.edit.removed(t)) continue;
+      const Tet c = tools.edit.tet(t);
+      const Entity from = tools.edit.entity(c[0]), to = tools.edit.entity(c[1]);
+      if (!tools.contractor.contract(c[0], c[1])) continue;
+      ++contracted[from.dimension];
+      CHECK(from.dimension > 0);
+      if (is_on_boundary(from)) CHECK(is_on_boundary(to));
+      CHECK(tools.edit.vertex_tet(c[0]) == -1);
+    }
+    CHECK(contracted[3] > 0);
+    CHECK(contracted[2] > 0);
+    CHECK(contracted[1] > 0);
+    tools.edit.finish();
+    check(s, tools.geometry);
+    CHECK(s.mesh.points.size() == points - contracted[1] - contracted[2] - contracted[3]);
+    CHECK(s.mesh.segments.size() == 48 - contracted[1]);
+    CHECK(sample::volume(s.mesh) == doctest::Approx(volume));
+  }
+}
+
+TEST_CASE("a trial that is taken back leaves every byte as it was") {
+  auto s = sample::two_boxes(0.2, 4);
+  const VolumeMesh before = s.mesh;
+  Tools tools(s);
+  int changes = 0;
+  for (Index t = 0; t < tools.edit.slot_count(); ++t)
+    for (int place = 0; place < Inserter::kPlaces; ++place) {
+      tools.edit.begin_trial();
+      if (tools.inserter.insert(t, place)) {
+        const Index v = tools.edit.vertex_count() - 1;
+        const auto star = tools.edit.star(v);
+        const std::vector<Index> around(star.begin(), star.end());
+        for (const Index n : around) {
+          if (tools.edit.removed(n)) continue;
+          const Tet c = tools.edit.tet(n);
+          changes += tools.smoother.smooth_worst(c[0], 1) + tools.flipper.improve(n);
+          if (!tools.edit.removed(n)) changes += tools.flipper.improve_boundary(n, tools.geometry);
+          if (!tools.edit.removed(n)) changes += tools.contractor.contract(c[1], c[0]);
+        }
+      }
+      tools.edit.end_trial(false);
+    }
+  CHECK(changes > 1000);
+  CHECK(s.mesh.points == before.points);
+  CHECK(s.mesh.point_entity == before.point_entity);
+  CHECK(s.mesh.tets == before.tets);
+  CHECK(s.mesh.neighbours == before.neighbours);
+  CHECK(s.mesh.tet_solid == before.tet_solid);
+  CHECK(s.mesh.triangles == before.triangles);
+  CHECK(s.mesh.triangle_face == before.triangle_face);
+  CHECK(s.mesh.segments == before.segments);
+  CHECK(s.mesh.segment_edge == before.segment_edge);
+  for (Index t = 0; t < tools.edit.slot_count(); ++t)
+    CHECK(tools.edit.bad(t) == tools.edit.compute_bad(tools.edit.tet(t)));
+}
+
+TEST_CASE("poor elements are rescued, none that a rescue touches gets worse") {
+  auto s = slab();
+  Tools tools(s);
+  int rescued = 0;
+  for (int round = 0; round < 3; ++round)
+    for (Index t = 0; t < tools.edit.slot_count(); ++t) {
+      if (tools.edit.removed(t) || tools.edit.bad(t) < badness_at(25)) continue;
+      const auto before = sample::angles_of(tools.edit);
+      rescued += tools.rescuer.rescue(t);
+      const auto now = sample::angles_of(tools.edit);
+      CHECK(now.min >= std::min(before.min, 30.0) - 1e-6);
+      CHECK(now.max <= std::max(before.max, 136.0) + 1e-6);
+    }
+  CHECK(rescued > 20);
+  tools.edit.finish();
+  check(s, tools.geometry);
+  CHECK(sample::volume(s.mesh) == doctest::Approx(32));
+}
