@@ -69,7 +69,7 @@ def new_actions(name, parent):
     if actions:
         return actions
     resources = commands.COMMANDS[name].GetResources()
-    action = QtGui.QAction(QtGui.QIcon(resources["Pixmap"]), resources["MenuText"], parent)
+    action = QtGui.QAction(FreeCADGui.getIcon(resources["Pixmap"]), resources["MenuText"], parent)
     action.setObjectName(name)
     action.setToolTip(resources["ToolTip"])
     action.triggered.connect(lambda *_: FreeCADGui.runCommand(name))

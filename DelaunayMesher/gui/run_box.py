@@ -4,7 +4,7 @@ from PySide import QtCore, QtGui
 
 from ..errors import MeshCancelled
 from .explain import explain, stage_name
-from .texts import icon, tr
+from .texts import qt_icon, tr
 
 LOG_LINES = 500
 BAD, WARN, GOOD = "#c0392b", "#b9770e", "#1e8449"
@@ -21,12 +21,12 @@ class RunBox(QtGui.QWidget):
     def __init__(self):
         super().__init__()
         self.setWindowTitle(tr("Run"))
-        self.setWindowIcon(QtGui.QIcon(icon("delaunay_mesher")))
+        self.setWindowIcon(qt_icon("delaunay_mesher"))
         self.stage = None
         self.button = QtGui.QPushButton()
         self.button.setObjectName("MeshButton")
         self.button.setMinimumHeight(30)
-        self.solve_button = QtGui.QPushButton(QtGui.QIcon(icon("solve")), tr("Solve"))
+        self.solve_button = QtGui.QPushButton(qt_icon("solve"), tr("Solve"))
         self.solve_button.setObjectName("SolveButton")
         self.solve_button.setMinimumHeight(30)
         self.solve_button.setToolTip(
@@ -47,8 +47,8 @@ class RunBox(QtGui.QWidget):
         self.result.setTextFormat(QtCore.Qt.RichText)
         self.result.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
         self.result.setWordWrap(True)
-        self.quality_button = QtGui.QPushButton(QtGui.QIcon(icon("mesh_quality")), tr("Mesh quality ..."))
-        self.results_button = QtGui.QPushButton(QtGui.QIcon(icon("solve")), tr("Results ..."))
+        self.quality_button = QtGui.QPushButton(qt_icon("mesh_quality"), tr("Mesh quality ..."))
+        self.results_button = QtGui.QPushButton(qt_icon("solve"), tr("Results ..."))
         self.results_button.setToolTip(tr("Close this panel and open FreeCAD's own for the results"))
         self.results_button.hide()
         self.arrange()
@@ -79,7 +79,7 @@ class RunBox(QtGui.QWidget):
         self.solve_button.setEnabled(True)
         self.button.setEnabled(True)
         self.button.setText(tr("Mesh"))
-        self.button.setIcon(QtGui.QIcon(icon("mesh_solid")))
+        self.button.setIcon(qt_icon("mesh_solid"))
 
     def begin(self):
         """A run starts."""

@@ -20,7 +20,7 @@ from .option_fields import make_field
 from .run_box import RunBox, number
 from .size_preview import SizePreview
 from .solve_job import SolveJob
-from .texts import icon, tr
+from .texts import qt_icon, tr
 
 POLL_MILLISECONDS = 50
 FRAME_WIDTH = 70  # pixels of FreeCAD's frames and scroll bar beside our boxes
@@ -169,7 +169,7 @@ class OptionsBox(QtGui.QWidget):
     def __init__(self, target):
         super().__init__()
         self.setWindowTitle(tr("Mesh of %s") % target.Shape.Label if target.Shape else target.Label)
-        self.setWindowIcon(QtGui.QIcon(icon("mesh_solid")))
+        self.setWindowIcon(qt_icon("mesh_solid"))
         self.shape = own_shape(target.Shape) if target.Shape else None
         self.fields = {option.name: make_field(option) for option in OPTIONS}
         self.count = QtGui.QLabel()

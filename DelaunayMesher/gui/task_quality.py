@@ -18,7 +18,7 @@ from .histogram import Histogram
 from .measures import MEASURES
 from .overlay import Overlay
 from .run_box import number
-from .texts import icon, tr
+from .texts import qt_icon, tr
 
 WORST = 100  # rows of the table
 ZOOM = 12.0  # height of the view over the longest edge of the element
@@ -184,7 +184,7 @@ class PlotBox(QtGui.QWidget):
     def __init__(self):
         super().__init__()
         self.setWindowTitle(tr("Mesh quality"))
-        self.setWindowIcon(QtGui.QIcon(icon("mesh_quality")))
+        self.setWindowIcon(qt_icon("mesh_quality"))
         self.measure = QtGui.QComboBox()
         self.measure.addItems([tr(measure.name) for measure in MEASURES])
         self.histogram = Histogram()
@@ -217,7 +217,7 @@ class WorstBox(QtGui.QWidget):
     def __init__(self):
         super().__init__()
         self.setWindowTitle(tr("Worst elements"))
-        self.setWindowIcon(QtGui.QIcon(icon("delaunay_mesher")))
+        self.setWindowIcon(qt_icon("delaunay_mesher"))
         self.table = QtGui.QTableWidget(0, 4)
         self.table.setHorizontalHeaderLabels([tr("Element"), tr("Value"), tr("On"), tr("Reason")])
         self.table.setSelectionBehavior(QtGui.QAbstractItemView.SelectRows)
@@ -249,7 +249,7 @@ class CutBox(QtGui.QWidget):
     def __init__(self):
         super().__init__()
         self.setWindowTitle(tr("Look inside"))
-        self.setWindowIcon(QtGui.QIcon(icon("mesh_object")))
+        self.setWindowIcon(qt_icon("mesh_object"))
         self.changed = lambda: None
         self.axis = QtGui.QComboBox()
         self.axis.addItems([tr(text) for text, _ in CUTS])

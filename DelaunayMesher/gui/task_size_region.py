@@ -5,7 +5,7 @@ from PySide import QtCore, QtGui
 
 from ..document.size_region import KINDS, PROPERTIES, USED
 from .option_fields import LARGEST, NARROW
-from .texts import icon, tr
+from .texts import qt_icon, tr
 
 KIND_LABELS = {"Sphere": "Sphere", "Box": "Box", "Cylinder": "Cylinder"}
 LABELS = {
@@ -32,7 +32,7 @@ class SizeRegionPanel:
         target.Document.openTransaction("Size region")
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(tr("Size region"))
-        self.form.setWindowIcon(QtGui.QIcon(icon("size_region")))
+        self.form.setWindowIcon(qt_icon("size_region"))
         self.grid = QtGui.QGridLayout(self.form)
         self.grid.setColumnStretch(1, 1)
         self.kind = QtGui.QComboBox()

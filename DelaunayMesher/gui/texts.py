@@ -20,3 +20,10 @@ def tr(text):
 def icon(name):
     """Path of an icon of this workbench."""
     return os.path.join(ICONS, name + ".svg")
+
+
+def qt_icon(name):
+    """QIcon of this workbench.  FreeCAD draws it: Qt itself needs a plugin for SVG that may be missing."""
+    import FreeCADGui
+
+    return FreeCADGui.getIcon(icon(name))

@@ -61,6 +61,7 @@ def narrow_panel():
         wait(0.1)
         gc.collect()
     panel = drive.panel()
+    assert not panel.run_box.button.icon().pixmap(16, 16).isNull()
     assert panel.options_box.width() >= panel.options_box.minimumSizeHint().width()
     assert panel.options_box.fields["max_size"].value() > 0
     assert panel.reject()
