@@ -18,6 +18,7 @@ from .histogram import Histogram
 from .measures import MEASURES
 from .overlay import Overlay
 from .run_box import number
+from .start_mesh import show_error
 from .texts import qt_icon, tr
 
 WORST = 100  # rows of the table
@@ -152,8 +153,12 @@ class QualityPanel:
         path = QtGui.QFileDialog.getSaveFileName(
             FreeCADGui.getMainWindow(), tr("Save the report"), name, "JSON (*.json)"
         )[0]
-        if path:
+        if not path:
+            return
+        try:
             write_report(path, self.report)
+        except OSError as error:
+            show_error(tr("The report was not saved: %s") % error)
 
     def reject(self):
         FreeCADGui.Control.closeDialog()

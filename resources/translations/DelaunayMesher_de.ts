@@ -460,6 +460,10 @@
       <translation>innen</translation>
     </message>
     <message>
+      <source>The report was not saved: %s</source>
+      <translation>Der Bericht wurde nicht gespeichert: %s</translation>
+    </message>
+    <message>
       <source>Sphere</source>
       <translation>Kugel</translation>
     </message>

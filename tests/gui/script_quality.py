@@ -1,9 +1,13 @@
 """In FreeCAD's window: refine a face, mesh again, look at the quality panel, click on an element, cut."""
 
+import json
+import os
+
 import drive
 import FreeCAD
 import FreeCADGui
 from drive import say, wait
+from PySide import QtGui
 
 
 def make_mesh():
@@ -86,12 +90,31 @@ def quality_panel(target):
     for index in range(len(MEASURES)):
         panel.plot_box.measure.setCurrentIndex(index)
         wait(0.05)
+    export_report(target)
     scene = FreeCADGui.ActiveDocument.ActiveView.getSceneGraph()
     children = scene.getNumChildren()
     panel.reject()
     wait(0.3)
     assert scene.getNumChildren() == children - 1 and target.ViewObject.Visibility
     assert not FreeCADGui.Control.activeDialog()
+
+
+def export_report(target):
+    """The report is saved; where nothing can be written, a message says so."""
+    from DelaunayMesher.gui import task_quality
+
+    ask = QtGui.QFileDialog.getSaveFileName
+    panel = task_quality.QualityPanel.current
+    good, bad = (os.path.join(drive.OUTPUT, name) for name in ("report.json", "missing/report.json"))
+    QtGui.QFileDialog.getSaveFileName = lambda *_: (good, "")
+    panel.export()
+    with open(good, encoding="utf-8") as file:
+        assert json.load(file)["tetrahedra"] == target.FemMesh.VolumeCount
+    QtGui.QFileDialog.getSaveFileName = lambda *_: (bad, "")
+    text = drive.message_of(panel.export)
+    QtGui.QFileDialog.getSaveFileName = ask
+    say(text)
+    assert "not saved" in text and bad in text
 
 
 def main():
