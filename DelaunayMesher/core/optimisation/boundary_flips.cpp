@@ -101,7 +101,7 @@ bool Flipper::flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geom
   if (!keeps_surface(ring, geometry, triangles, turned)) return false;
   if (!is_allowed(plan, turned)) return false;
   for (int i = 0; i < 2; ++i) mesh_.set_triangle(triangles[i], turned[i], mesh_.triangle_face(triangles[i]));
-  return apply(plan);
+  return !apply(plan).empty();
 }
 
 bool Flipper::improve_boundary(Index tet, const Geometry& geometry) {

@@ -150,11 +150,10 @@ bool Flipper::is_allowed(const Plan& plan, std::span<const Triangle> boundary) c
   return true;
 }
 
-bool Flipper::apply(const Plan& plan) {
-  if (plan.before_count == 0) return false;
-  mesh_.replace({plan.before.data(), static_cast<std::size_t>(plan.before_count)},
-                {plan.after.data(), static_cast<std::size_t>(plan.after_count)});
-  return true;
+std::span<const Index> Flipper::apply(const Plan& plan) {
+  if (plan.before_count == 0) return {};
+  return mesh_.replace({plan.before.data(), static_cast<std::size_t>(plan.before_count)},
+                       {plan.after.data(), static_cast<std::size_t>(plan.after_count)});
 }
 
 bool Flipper::improve(Index tet) {
@@ -163,10 +162,10 @@ bool Flipper::improve(Index tet) {
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j) plan_edge_removal(tet, i, j, kMaxRing, best);
   for (int i = 0; i < 4; ++i) plan_face_removal(tet, i, best);
-  return apply(best);
+  return !apply(best).empty();
 }
 
-bool Flipper::improve_blunt(Index tet, FlipGoal goal) {
+Flipper::Plan Flipper::plan_blunt(Index tet, FlipGoal goal) {
   constexpr int kEdge[6][2] = {{2, 3}, {1, 3}, {1, 2},
                                {0, 3}, {0, 2}, {0, 1}};  // between the faces kFacePairs
   const Tet& c = mesh_.tet(tet);
@@ -186,7 +185,8 @@ bool Flipper::improve_blunt(Index tet, FlipGoal goal) {
   start(goal, best);
   for (const int k : {first, second})
     if (cosines[k] < kBluntEdge) plan_edge_removal(tet, kEdge[k][0], kEdge[k][1], kShortRing, best);
-  return apply(best);
+  best.tet = tet;
+  return best;
 }
 
 }  // namespace dm

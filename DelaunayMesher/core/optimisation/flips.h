@@ -20,13 +20,24 @@ enum class FlipGoal { worst, mean };
 class Flipper {
  public:
   static constexpr int kMaxRing = 7;
+  // A flip: the tetrahedra `before` give way to `after`.  None if before_count is 0.
+  struct Plan {
+    Index tet = -1;   // that it was made for
+    double cost = 0;  // worst: the new worst badness; mean: the change of the sum
+    int before_count = 0, after_count = 0;
+    std::array<Index, kMaxRing> before;
+    std::array<Tet, 2 * (kMaxRing - 2)> after;
+  };
   explicit Flipper(EditMesh& mesh) : mesh_(mesh) {}
 
   // The best flip for the worst element that takes `tet` away, if any is allowed; false when there is none.
   bool improve(Index tet);
   // The same among the few candidates that succeed most: removal of one of the two edges with the largest
   // angles, up to five tetrahedra round it.  On refined Delaunay meshes nineteen flips of twenty.
-  bool improve_blunt(Index tet, FlipGoal goal);
+  bool improve_blunt(Index tet, FlipGoal goal) { return !apply(plan_blunt(tet, goal)).empty(); }
+  // Its two parts.  The first changes nothing, so several threads may plan with a Flipper each.
+  Plan plan_blunt(Index tet, FlipGoal goal);
+  std::span<const Index> apply(const Plan& plan);  // the new tetrahedra
   // Flip of a boundary edge inside one CAD face together with the tetrahedra round it, for the worst element.
   // The two triangles become the other two of their quadrilateral; on a curved face only if the new edge lies
   // as close to the face and the normals turn by less than 25 degrees.
@@ -38,12 +49,6 @@ class Flipper {
     int count = 0;
     std::array<Index, kMaxRing> corner,
         tet;  // tet[i] = (a, b, corner[i], corner[i + 1]); an open ring has one less
-  };
-  struct Plan {
-    double cost = 0;  // worst: the new worst badness; mean: the change of the sum
-    int before_count = 0, after_count = 0;
-    std::array<Index, kMaxRing> before;
-    std::array<Tet, 2 * (kMaxRing - 2)> after;
   };
   bool find_ring(Index tet, int ia, int ib, int longest, Ring& ring) const;
   bool find_open_ring(Index tet, int ia, int ib, Ring& ring) const;
@@ -57,7 +62,6 @@ class Flipper {
   void add_triangles(const Ring& ring, int i, int j, Plan& plan) const;
   // `boundary`: triangles that become part of the boundary.
   bool is_allowed(const Plan& plan, std::span<const Triangle> boundary = {}) const;
-  bool apply(const Plan& plan);
 
   EditMesh& mesh_;
   FlipGoal goal_ = FlipGoal::worst;

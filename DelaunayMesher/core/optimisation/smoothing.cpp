@@ -23,10 +23,11 @@ bool Smoother::load(Index v, bool soft) {
 }
 
 void Smoother::begin(bool soft) {
-  double reach = 0;
+  const Vec3 from = place_ - fan_.origin;
+  double reach2 = 0;
   for (int k = 0; k < fan_.count; ++k)
-    reach += distance(place_, fan_.origin + Vec3{fan_.corner[0][k], fan_.corner[1][k], fan_.corner[2][k]});
-  size_ = reach / fan_.count;
+    reach2 += norm2(Vec3{fan_.corner[0][k], fan_.corner[1][k], fan_.corner[2][k]} - from);
+  size_ = std::sqrt(reach2 / fan_.count);
   soft_ = soft;
   stride_ = 0.12;
   now_ = fan_score(fan_, place_, soft_, bad_.data());

@@ -41,7 +41,7 @@ class Smoother {
   const Geometry& geometry_;
   Fan fan_;
   std::array<Index, Fan::kCapacity> tets_{};
-  double size_ = 0;    // mean distance from the vertex to its neighbours
+  double size_ = 0;    // root mean square distance from the vertex to its neighbours
   double stride_ = 0;  // first trial length, relative to size_
   Entity entity_;      // what it lies on
   bool soft_ = true;

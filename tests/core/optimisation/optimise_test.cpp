@@ -127,6 +127,27 @@ TEST_CASE("a flattened box, poor everywhere, gets good angles") {
   CHECK(sample::volume(s.mesh) == doctest::Approx(32));
 }
 
+TEST_CASE("the number of threads changes no byte") {
+  auto one = sample::box(12, 0.25, 2);
+  auto many = one;
+  Context context;
+  run(one, context);
+  context.threads = 3;
+  run(many, context);
+  CHECK(one.mesh.points == many.mesh.points);
+  CHECK(one.mesh.tets == many.mesh.tets);
+  CHECK(one.mesh.triangles == many.mesh.triangles);
+}
+
+TEST_CASE("it can be cancelled while several threads work") {
+  auto s = sample::box(12, 0.25, 4);
+  int calls = 0;
+  Context context(
+      [&](const char* stage, double) { return std::strcmp(stage, "optimisation") != 0 || ++calls < 3; });
+  context.threads = 2;
+  CHECK_THROWS_AS(run(s, context), Cancelled);
+}
+
 TEST_CASE("it can be cancelled") {
   auto s = sample::box(5, 0.25, 4);
   Context context([](const char* stage, double) { return std::strcmp(stage, "optimisation") != 0; });
