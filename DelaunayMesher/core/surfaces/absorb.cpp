@@ -1,6 +1,7 @@
 #include "surfaces/absorb.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -13,7 +14,9 @@ namespace {
 constexpr double kAbsorbed = 1.0 / 50;  // width over the size given there
 constexpr double kWidest = 2.5;         // extent of the points that become one, over the tolerance
 constexpr double kTurned = 0.3;         // cosine between a triangle's normals before and after
-constexpr double kAcute = 0.77;         // cosine of the angle between faces that may come to meet: 40 degrees
+constexpr int kMostFlips = 8;           // per triangle that would turn over
+constexpr double kAcute = 0.7;          // angle between faces that may come to meet, radians
+constexpr double kNarrowed = 0.7;       // that of faces that met before, over what it was
 
 // Points that become one, with the box round them.
 class Clusters {
@@ -60,6 +63,7 @@ class Absorber {
       if (std::find(active_.begin(), active_.end(), 1) == active_.end()) return given_;
       join_points();
       make_triangles();
+      turn_back();
       bad_.assign(plc_.points.size(), 0);
       check_normals();
       check_edges();
@@ -114,13 +118,71 @@ class Absorber {
   void make_triangles() {
     triangles_.clear();
     source_.clear();
+    before_.clear();
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
       const auto [a, b, c] = plc_.triangles[t];
       const Triangle v{to_[a], to_[b], to_[c]};
       if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
       triangles_.push_back(v);
       source_.push_back(static_cast<Index>(t));
+      before_.push_back(normal(plc_.triangles[t]));
     }
+    segments_.clear();
+    for (const auto& [a, b] : plc_.segments)
+      if (to_[a] != to_[b]) segments_.push_back(std::minmax(to_[a], to_[b]));
+    std::sort(segments_.begin(), segments_.end());
+  }
+  bool is_segment(Index a, Index b) const {
+    return std::binary_search(segments_.begin(), segments_.end(), std::pair<Index, Index>(std::minmax(a, b)));
+  }
+
+  // Triangles beside what is absorbed that would turn over are flipped away, where that is possible.
+  void turn_back() {
+    std::vector<std::size_t> stack;
+    std::vector<char> concerned(plc_.face_solids.size(), 0);
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      if (moved(t) && is_turned(triangles_[t], before_[t])) {
+        stack.push_back(t);
+        concerned[face(t)] = 1;
+      }
+    if (stack.empty()) return;
+    std::map<std::pair<Index, Segment>, std::size_t> half;  // face, directed side -> triangle
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (int i = 0; concerned[face(t)] && i < 3; ++i) half[{face(t), side(t, i)}] = t;
+    for (std::size_t steps = kMostFlips * stack.size(); !stack.empty() && steps > 0; --steps) {
+      const std::size_t t = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3 && is_turned(triangles_[t], before_[t]); ++i) {
+        const auto [a, b] = side(t, i);
+        const auto beside = half.find({face(t), {b, a}});
+        if (beside == half.end() || is_segment(a, b)) continue;
+        const std::size_t s = beside->second;
+        const Index c = apex(a, b, triangles_[t]), d = apex(a, b, triangles_[s]);
+        const Triangle one{c, a, d}, other{d, b, c};
+        const Vec3 n = before_[s] + before_[t];
+        if (c == d || half.contains({face(t), {c, d}}) || half.contains({face(t), {d, c}})) continue;
+        if (is_turned(one, n) || is_turned(other, n)) continue;
+        half.erase({face(t), {a, b}});
+        half.erase(beside);
+        triangles_[t] = one;
+        triangles_[s] = other;
+        before_[t] = before_[s] = n;
+        for (const std::size_t u : {t, s})
+          for (int j = 0; j < 3; ++j) half[{face(t), side(u, j)}] = u;
+      }
+    }
+  }
+
+  Segment side(std::size_t t, int i) const { return {triangles_[t][i], triangles_[t][(i + 1) % 3]}; }
+  static Index apex(Index a, Index b, const Triangle& v) {
+    for (const Index p : v)
+      if (p != a && p != b) return p;
+    return a;
+  }
+  // Or flat, as the last triangle of a face that is all but absorbed.
+  bool is_turned(const Triangle& v, const Vec3& before) const {
+    const Vec3 after = normal(v);
+    return !(dot(before, after) > kTurned * std::sqrt(norm2(before) * norm2(after)));
   }
 
   bool moved(std::size_t t) const { return triangles_[t] != plc_.triangles[source_[t]]; }
@@ -135,11 +197,8 @@ class Absorber {
   }
 
   void check_normals() {
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (!moved(t)) continue;
-      const Vec3 before = normal(plc_.triangles[source_[t]]), after = normal(triangles_[t]);
-      if (dot(before, after) < kTurned * std::sqrt(norm2(before) * norm2(after))) blame(t);
-    }
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      if (moved(t) && is_turned(triangles_[t], before_[t])) blame(t);
   }
 
   struct Side {
@@ -160,14 +219,9 @@ class Absorber {
     std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
       return std::tie(x.a, x.b, x.triangle) < std::tie(y.a, y.b, y.triangle);
     });
-    std::vector<Segment> segments;
-    for (const auto& [a, b] : plc_.segments)
-      if (to_[a] != to_[b]) segments.push_back({std::min(to_[a], to_[b]), std::max(to_[a], to_[b])});
-    std::sort(segments.begin(), segments.end());
     for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
       while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b) ++j;
-      const bool segment =
-          std::binary_search(segments.begin(), segments.end(), Segment{sides[i].a, sides[i].b});
+      const bool segment = is_segment(sides[i].a, sides[i].b);
       const bool smooth = j - i == 2 && face(sides[i].triangle) == face(sides[i + 1].triangle) &&
                           sides[i].forward != sides[i + 1].forward;
       if (!segment && !smooth) blame(sides[i].triangle);
@@ -178,20 +232,27 @@ class Absorber {
   }
 
   void check_pair(Index a, Index b, std::size_t s, std::size_t t) {
-    int shared = 0;
+    const double angle = angle_between(a, b, triangles_[s], triangles_[t]);
+    if (angle >= kAcute) return;
+    std::vector<Index> shared;  // of the triangles as they were
     for (const Index p : plc_.triangles[source_[s]])
-      for (const Index q : plc_.triangles[source_[t]]) shared += p == q;
-    if (shared >= 2) return;
-    const Vec3 u = across(a, b, s), v = across(a, b, t);
-    if (dot(u, v) > kAcute * std::sqrt(norm2(u) * norm2(v))) blame(s), blame(t);
+      for (const Index q : plc_.triangles[source_[t]])
+        if (p == q) shared.push_back(p);
+    const bool was_acute = shared.size() == 2 &&
+                           angle > kNarrowed * angle_between(shared[0], shared[1], plc_.triangles[source_[s]],
+                                                             plc_.triangles[source_[t]]);
+    if (!was_acute) blame(s), blame(t);
   }
 
-  // From the edge (a, b) of t to its third corner, at a right angle to the edge.
-  Vec3 across(Index a, Index b, std::size_t t) const {
-    Index apex = a;
-    for (const Index p : triangles_[t])
-      if (p != a && p != b) apex = p;
-    const Vec3 along = plc_.points[b] - plc_.points[a], d = plc_.points[apex] - plc_.points[a];
+  // In radians, on both sides of the edge (a, b).
+  double angle_between(Index a, Index b, const Triangle& one, const Triangle& other) const {
+    const Vec3 u = across(a, b, one), v = across(a, b, other);
+    return std::atan2(norm(cross(u, v)), dot(u, v));
+  }
+
+  // From the edge (a, b) of a triangle to its third corner, at a right angle to the edge.
+  Vec3 across(Index a, Index b, const Triangle& v) const {
+    const Vec3 along = plc_.points[b] - plc_.points[a], d = plc_.points[apex(a, b, v)] - plc_.points[a];
     return d - (dot(d, along) / norm2(along)) * along;
   }
 
@@ -298,7 +359,9 @@ class Absorber {
   std::vector<char> bad_;       // by point that stays: may not be joined as it was
   std::vector<Index> refused_;  // features
   std::vector<Triangle> triangles_;
-  std::vector<Index> source_;  // of triangles_, in plc_
+  std::vector<Index> source_;                      // of triangles_, in plc_
+  std::vector<Vec3> before_;                       // of triangles_: twice the area vector that they had
+  std::vector<std::pair<Index, Index>> segments_;  // ends that stay, in order
 };
 
 }  // namespace

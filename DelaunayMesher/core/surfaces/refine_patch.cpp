@@ -18,6 +18,8 @@ constexpr double kOnEdge = 0.02;   // height over the edge's length under which 
 constexpr double kSameSide = 0.5;  // cosine between normals that may be walked over
 constexpr int kBucketsPerOctave = 4;
 constexpr int kBuckets = 80;
+constexpr double kFewestSteps = 1000;
+constexpr double kStepsPerSquare = 2;  // of the shortest length wanted, in that of a side of a triangle
 
 struct Circle {
   Vec3 centre;
@@ -37,7 +39,8 @@ Circle circumcircle(const Vec3& a, const Vec3& b, const Vec3& c) {
 void PatchRemesher::enqueue(Index t) {
   const double ratio = radius_ratio(t) / refine_limit_;
   if (ratio <= 1) return;
-  const int k = std::min(kBuckets - 1, static_cast<int>(kBucketsPerOctave * std::log2(ratio)));
+  // A flat triangle's radius is infinite.
+  const int k = static_cast<int>(std::min(kBuckets - 1.0, kBucketsPerOctave * std::log2(ratio)));
   buckets_[k].push_back({t, patch_.stamp(t)});
   top_bucket_ = std::max(top_bucket_, static_cast<Index>(k));
 }
@@ -49,7 +52,11 @@ void PatchRemesher::refine(double radius_ratio_limit) {
   for (Index t = 0; t < patch_.triangle_slots(); ++t)
     if (patch_.alive(t)) enqueue(t);
   std::size_t steps = 0;
-  while (top_bucket_ >= 0) {
+  // Far more steps than a sound patch needs; a folded or flat one would be divided for ever.
+  double squares = 0, shortest = *std::min_element(patch_.lengths.begin(), patch_.lengths.end());
+  for (Index e = 0; e < 3 * patch_.triangle_slots(); ++e)
+    if (patch_.alive(e / 3)) squares += norm2(points()[patch_.target(e)] - points()[patch_.origin(e)]);
+  while (top_bucket_ >= 0 && steps < kFewestSteps + kStepsPerSquare * squares / (shortest * shortest)) {
     std::vector<Entry>& bucket = buckets_[top_bucket_];
     if (bucket.empty()) {
       --top_bucket_;
@@ -59,6 +66,7 @@ void PatchRemesher::refine(double radius_ratio_limit) {
     bucket.pop_back();
     if (!patch_.alive(entry.triangle) || patch_.stamp(entry.triangle) != entry.stamp) continue;
     if (!insert_near_centre(entry.triangle)) split_longest(entry.triangle);
+    shortest = std::min(shortest, patch_.lengths.back());
     if ((++steps & 255) == 0) poll_();
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace dm {
 namespace {
@@ -10,8 +11,11 @@ namespace {
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
+constexpr double kTip = 0.17;    // width over length of the end of a sharp tip: 10 degrees
+constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
+constexpr int kBisections = 20;
 
 class Finder {
  public:
@@ -29,9 +33,11 @@ class Finder {
 
   std::vector<SmallFeature> run() {
     collect_edges();
+    find_tips();
     const std::vector<Index> faces = faces_with_narrow_places();
     if (!faces.empty()) collect_triangles(faces);
     for (const Index f : faces) search_face(f);
+    drop_removed_triangles();
     std::stable_sort(found_.begin(), found_.end(),
                      [&](const SmallFeature& a, const SmallFeature& b) { return width(a) < width(b); });
     return std::move(found_);
@@ -85,6 +91,7 @@ class Finder {
   }
   bool tiny_edge(Index e) const { return ends_[e].size() == 2 && length_[e] < tolerance_(at(ends_[e][0])); }
   bool on_curve(Index p) const { return !edges_of_[p].empty(); }
+  bool is_tracked(Index p, Index t) const { return on_curve(p) || searched_[plc_.triangle_face[t]]; }
   bool on_kept_curve(Index p) const {
     return std::any_of(edges_of_[p].begin(), edges_of_[p].end(), [&](Index e) { return kept_edge_[e]; });
   }
@@ -123,6 +130,86 @@ class Finder {
     return true;
   }
 
+  // ---- tips: corners of a face where two of its curves run together, in the end as one
+
+  struct Tip {
+    Index face, point;
+    Index edge, other_edge;
+    Index along;  // the next point of the edge
+  };
+
+  void find_tips() {
+    struct Corner {
+      Index face, point, next, edge;
+    };
+    std::vector<Corner> corners;  // both ends of the segments of every face
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index a = plc_.triangles[t][i], b = plc_.triangles[t][(i + 1) % 3], s = table_.find(a, b);
+        if (s < 0) continue;
+        corners.push_back({plc_.triangle_face[t], a, b, plc_.segment_edge[s]});
+        corners.push_back({plc_.triangle_face[t], b, a, plc_.segment_edge[s]});
+      }
+    const auto key = [](const Corner& c) { return std::tie(c.face, c.point, c.next); };
+    std::sort(corners.begin(), corners.end(), [&](auto& x, auto& y) { return key(x) < key(y); });
+    for (std::size_t i = 0, j = 0; i < corners.size(); i = j) {
+      while (j < corners.size() && corners[j].face == corners[i].face && corners[j].point == corners[i].point)
+        ++j;
+      const Corner &c = corners[i], &d = corners[i + 1];
+      if (j != i + 2 || c.edge == d.edge || kept_edge_[c.edge] || kept_edge_[d.edge]) continue;
+      const Tip tip{c.face, c.point, c.edge, d.edge, c.next};
+      if (is_sharp(tip)) tips_.push_back(tip);
+    }
+  }
+
+  // On the segment (a, b) of the tip's edge, and how far it is from there to the other edge.
+  Vec3 on_edge(const Tip& tip, Index a, Index b, double t) const {
+    return geometry_.project_to_edge(tip.edge, at(a) + t * (at(b) - at(a)));
+  }
+  double gap(const Tip& tip, const Vec3& p) const {
+    return distance(p, geometry_.project_to_edge(tip.other_edge, p));
+  }
+
+  bool is_sharp(const Tip& tip) const {
+    const double length = distance(at(tip.point), at(tip.along)), reach = tolerance_(at(tip.point));
+    if (length == 0) return false;
+    const Vec3 p = on_edge(tip, tip.point, tip.along, std::min(1.0, reach / length));
+    return gap(tip, p) < kTip * distance(p, at(tip.point));
+  }
+
+  // Divides the edge where the tip becomes as wide as a narrow part may be; its points before that face the
+  // other curve anyway.
+  void cut_tip(const Tip& tip) {
+    const double widest = kTipEnd * kPart * tolerance_(at(tip.point));
+    Index a = tip.point, b = next_on(tip.edge, -1, a);
+    while (b >= 0 && gap(tip, at(b)) < widest) {
+      const Index next = edges_of_[b].size() > 1 ? -1 : next_on(tip.edge, a, b);
+      a = b;
+      b = next;
+    }
+    if (b < 0) return;
+    double low = 0, high = 1;
+    for (int step = 0; step < kBisections; ++step) {
+      const double t = 0.5 * (low + high);
+      (gap(tip, on_edge(tip, a, b, t)) < widest ? low : high) = t;
+    }
+    const Vec3 place = on_edge(tip, a, b, low);
+    if (std::min(distance(place, at(a)), distance(place, at(b))) < tolerance_(place)) return;
+    divide(segment(a, b), place, tip.face);
+  }
+
+  // The point after b on the curve, coming from a; -1 = none.
+  Index next_on(Index edge, Index a, Index b) const {
+    for (const Index t : round_[b])
+      for (int i = 0; i < 3; ++i) {
+        const auto [p, q] = side(t, i);
+        if (p != b && q != b) continue;
+        const Index other = p == b ? q : p, s = segment(p, q);
+        if (other != a && s >= 0 && plc_.segment_edge[s] == edge) return other;
+      }
+    return -1;
+  }
+
   std::vector<Index> faces_with_narrow_places() const {
     std::vector<char> found(plc_.face_solids.size(), 0);
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
@@ -134,13 +221,14 @@ class Finder {
         narrow = is_short(a, b) || passes(a, b, p, place);
       }
     }
+    for (const Tip& tip : tips_) found[tip.face] = 1;
     std::vector<Index> faces;
     for (std::size_t f = 0; f < found.size(); ++f)
       if (found[f] && !kept_face_[f]) faces.push_back(static_cast<Index>(f));
     return faces;
   }
 
-  // Triangles of the faces that are searched, and those round the points of curves.
+  // Triangles of the faces that are searched, and those round their points and the points of curves.
   void collect_triangles(const std::vector<Index>& faces) {
     by_face_.resize(plc_.face_solids.size());
     searched_.assign(plc_.face_solids.size(), 0);
@@ -149,7 +237,7 @@ class Finder {
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
       if (searched_[plc_.triangle_face[t]]) by_face_[plc_.triangle_face[t]].push_back(static_cast<Index>(t));
       for (const Index p : plc_.triangles[t])
-        if (on_curve(p)) round_[p].push_back(static_cast<Index>(t));
+        if (is_tracked(p, static_cast<Index>(t))) round_[p].push_back(static_cast<Index>(t));
     }
   }
 
@@ -161,6 +249,13 @@ class Finder {
       for (int i = 0; i < 3; ++i)
         if (!half_.emplace(side(t, i), t).second) return;  // folded onto itself
     steps_ = kMostSteps * by_face_[face].size() + 1000;
+    sharp_.clear();
+    for (const Tip& tip : tips_)
+      if (tip.face == face) {
+        cut_tip(tip);
+        sharp_.insert(tip.point);
+      }
+    drop_points_near_curves(face);
     std::vector<Segment> open;
     for (const auto& [ends, t] : half_) open.push_back(ends);
     flip(open);
@@ -195,6 +290,79 @@ class Finder {
     return norm(area_vector(at(a), at(b), at(c))) / std::sqrt(longest2);
   }
 
+  // Points of the tessellation inside the face, but nearer to a curve than the tolerance, would lie between
+  // points that face each other.
+  void drop_points_near_curves(Index face) {
+    std::vector<Index> stack = by_face_[face];
+    while (!stack.empty() && steps_ > 0) {
+      const Index t = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const auto [a, b] = side(t, i);
+        const Index p = apex(t, {a, b}), s = segment(a, b);
+        if (p < 0 || s < 0 || on_curve(p)) continue;
+        if (!(distance(at(p), geometry_.project_to_edge(plc_.segment_edge[s], at(p))) < tolerance_(at(p))))
+          continue;
+        const bool a_first = distance(at(a), at(p)) < distance(at(b), at(p));
+        const std::vector<Index> fan = round_[p];
+        if (!collapse(p, a_first ? a : b) && !collapse(p, a_first ? b : a)) continue;
+        --steps_;
+        stack.insert(stack.end(), fan.begin(), fan.end());
+        break;
+      }
+    }
+  }
+
+  // Moves p, inside the face, to its neighbour q; false, and nothing done, if a triangle would turn over.
+  bool collapse(Index p, Index q) {
+    const std::vector<Index> fan = round_[p];
+    Vec3 n;
+    for (const Index t : fan)
+      n += area_vector(at(plc_.triangles[t][0]), at(plc_.triangles[t][1]), at(plc_.triangles[t][2]));
+    std::vector<Index> gone, kept;
+    for (const Index t : fan) (has(t, q) ? gone : kept).push_back(t);
+    if (gone.size() != 2) return false;
+    std::vector<Triangle> moved;
+    for (const Index t : kept) {
+      Triangle& v = moved.emplace_back(plc_.triangles[t]);
+      std::replace(v.begin(), v.end(), p, q);
+      if (!(dot(area_vector(at(v[0]), at(v[1]), at(v[2])), n) > 0)) return false;
+      for (const Index x : v) {
+        const bool linked = half_.contains({q, x}) || half_.contains({x, q}) || segment(q, x) >= 0;
+        if (x != q && linked && !has(gone[0], x) && !has(gone[1], x)) return false;
+      }
+    }
+    for (const Index t : fan)
+      for (int i = 0; i < 3; ++i) half_.erase(side(t, i));
+    for (const Index t : gone) {
+      for (const Index x : plc_.triangles[t]) std::erase(round_[x], t);
+      std::erase(by_face_[plc_.triangle_face[t]], t);
+      plc_.triangles[t] = {q, q, q};
+      removed_.push_back(t);
+    }
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      replace(kept[k], moved[k]);
+      for (int i = 0; i < 3; ++i) half_[side(kept[k], i)] = kept[k];
+    }
+    return true;
+  }
+
+  bool has(Index t, Index p) const {
+    return std::find(plc_.triangles[t].begin(), plc_.triangles[t].end(), p) != plc_.triangles[t].end();
+  }
+
+  void drop_removed_triangles() {
+    std::sort(removed_.begin(), removed_.end());
+    std::size_t to = 0;
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
+      if (std::binary_search(removed_.begin(), removed_.end(), static_cast<Index>(t))) continue;
+      plc_.triangles[to] = plc_.triangles[t];
+      plc_.triangle_face[to++] = plc_.triangle_face[t];
+    }
+    plc_.triangles.resize(to);
+    plc_.triangle_face.resize(to);
+  }
+
   // Lawson flips among thin triangles.
   void flip(std::vector<Segment> stack) {
     while (!stack.empty() && steps_ > 0) {
@@ -217,11 +385,16 @@ class Finder {
     }
   }
 
+  // The fan round a tip may have all its triangles.
+  bool may_flip(Index a, Index b, Index c) const {
+    return height(a, b, c) <= kThin * tolerance_(at(a)) || sharp_.contains(a) || sharp_.contains(b) ||
+           sharp_.contains(c);
+  }
+
   // Of the triangles (a, b, c) and (b, a, d): both thin, the angles at c and d over 180 degrees together, and
   // the new ones facing as the old.
   bool wants_flip(Index a, Index b, Index c, Index d) const {
-    const double limit = kThin * tolerance_(at(a));
-    if (c == d || height(a, b, c) > limit || height(b, a, d) > limit) return false;
+    if (c == d || !may_flip(a, b, c) || !may_flip(b, a, d)) return false;
     const Vec3 n1 = area_vector(at(a), at(b), at(c)), n2 = area_vector(at(b), at(a), at(d));
     const Vec3 m1 = area_vector(at(c), at(a), at(d)), m2 = area_vector(at(d), at(b), at(c));
     const Vec3 n = n1 + n2;
@@ -235,7 +408,7 @@ class Finder {
     for (const Index p : plc_.triangles[t]) std::erase(round_[p], t);
     plc_.triangles[t] = v;
     for (const Index p : v)
-      if (on_curve(p)) round_[p].push_back(t);
+      if (is_tracked(p, t)) round_[p].push_back(t);
   }
 
   // Divides a segment and all its triangles at p; returns the new point.
@@ -260,7 +433,7 @@ class Finder {
       plc_.triangles.push_back(second);
       plc_.triangle_face.push_back(f);
       for (const Index q : second)
-        if (on_curve(q)) round_[q].push_back(n);
+        if (is_tracked(q, n)) round_[q].push_back(n);
       if (searched_[f]) by_face_[f].push_back(n);
       if (f == face)
         for (const Index u : {t, n})
@@ -269,6 +442,7 @@ class Finder {
     plc_.segments[s] = {a, v};
     plc_.segments.push_back({v, b});
     plc_.segment_edge.push_back(edge);
+    divided_[std::minmax(a, b)] = -1;
     divided_[std::minmax(a, v)] = s;
     divided_[std::minmax(v, b)] = static_cast<Index>(plc_.segments.size()) - 1;
     return v;
@@ -289,9 +463,11 @@ class Finder {
       std::vector<Index> stack{*left.begin()};
       left.erase(left.begin());
       std::size_t triangles = 0;
+      bool tip = false;
       for (; !stack.empty(); ++triangles) {
         const Index t = stack.back();
         stack.pop_back();
+        for (const Index p : plc_.triangles[t]) tip |= sharp_.contains(p);
         for (int i = 0; i < 3; ++i) {
           const auto [a, b] = side(t, i);
           if (is_short(a, b)) pairs.insert(std::minmax(a, b));
@@ -301,6 +477,11 @@ class Finder {
         }
       }
       SmallFeature feature(pairs.begin(), pairs.end());
+      if (tip && triangles < by_face_[face].size()) {
+        std::erase_if(feature, [&](const auto& pair) { return !is_narrow({pair}); });
+        if (!feature.empty()) found_.push_back(std::move(feature));
+        continue;
+      }
       // One side across closes no strip: it would only move the tip of a wedge.
       const bool edge = feature.size() == 1 && segment(feature[0].first, feature[0].second) >= 0;
       if (edge || (feature.size() > 1 && (triangles == by_face_[face].size() || is_narrow(feature))))
@@ -318,13 +499,16 @@ class Finder {
   const Tolerance& tolerance_;
   const SegmentTable table_;
   std::vector<char> kept_face_, kept_edge_;
-  std::map<std::pair<Index, Index>, Index> divided_;  // segments that table_ does not know
+  std::map<std::pair<Index, Index>, Index> divided_;  // what table_ does not know; -1 = no segment any more
   std::vector<double> length_;                        // by edge, as its ends
   std::vector<std::vector<Index>> ends_;
   std::vector<std::vector<Index>> edges_of_;  // by point
-  std::vector<std::vector<Index>> round_;     // by point of a curve: its triangles
+  std::vector<std::vector<Index>> round_;     // by point of a curve or of a face that is searched
+  std::vector<Index> removed_;                // triangles
   std::vector<std::vector<Index>> by_face_;   // of faces that are searched: their triangles
   std::vector<char> searched_;
+  std::vector<Tip> tips_;
+  std::set<Index> sharp_;          // of the face at hand: points of its tips
   std::map<Segment, Index> half_;  // of the face at hand: directed side -> triangle
   std::size_t steps_ = 0;          // left for the face at hand
   std::vector<SmallFeature> found_;

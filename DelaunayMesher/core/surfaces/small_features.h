@@ -4,8 +4,9 @@
 // A face is narrow where a point of one of its curves has another one at less than the tolerance across the
 // face.  Where the other curve has no point there, its segment is divided, on the exact curve; flips then
 // make every triangle there have a side across.  These sides, and tiny edges, are the pairs of points.
-// Connected ones belong together: a strip is absorbed at both of its ends or not at all.
-// Cost: linear, and logarithmic in the size of faces with narrow places.
+// Where two curves run together in a sharp tip, one of them is divided at the width that may just be
+// absorbed. Connected ones belong together: a strip is absorbed at both of its ends or not at all. Cost:
+// linear, and logarithmic in the size of faces with narrow places.
 #pragma once
 
 #include <functional>
@@ -21,7 +22,8 @@ using Tolerance = std::function<double(const Vec3&)>;  // mm, at a place
 
 using SmallFeature = std::vector<std::pair<Index, Index>>;  // points that become one
 
-// Narrowest first.  Segments of the PLC may be divided, and triangles at narrow places flipped.
+// Narrowest first.  Segments of the PLC may be divided, triangles at narrow places flipped, and points of the
+// tessellation inside a face left out near its curves.
 std::vector<SmallFeature> find_small_features(Plc& plc, const Geometry& geometry, const Tolerance& tolerance);
 
 // Segments by their ends.

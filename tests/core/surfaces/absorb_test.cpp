@@ -102,11 +102,69 @@ Shape tiny_edge(double gap) {
   return s;
 }
 
+// A box of 10 x 10 x 10 whose front is divided by an arc of n segments from one end of its lower edge, o, to
+// `end`: its other end, or a point of the right side.
+Shape arc_on_front(const Vec3& centre, const Vec3& end, int n) {
+  Shape s;
+  const Vec3 o{0, 0, 0}, x{10, 0, 0}, xz{10, 0, 10}, z{0, 0, 10};
+  const Vec3 y{0, 10, 0}, xy{10, 10, 0}, all{10, 10, 10}, yz{0, 10, 10};
+  const double radius = norm(centre), side = centre.z > 0 ? -1 : 1;
+  std::vector<Vec3> arc{o};
+  for (int i = 1; i < n; ++i) {
+    const double along = end.x * i / n - centre.x;
+    arc.push_back({end.x * i / n, 0, centre.z + side * std::sqrt(radius * radius - along * along)});
+  }
+  arc.push_back(end);
+  const auto face = [&](const Vec3& normal, const std::vector<Vec3>& loop) {
+    const Index f = s.face(shapes::plane(loop[0], normal), 1);
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) s.triangle(f, loop[0], loop[i], loop[i + 1]);
+  };
+  const bool lens = norm(end - x) == 0;
+  std::vector<Vec3> below{lens ? o : x}, above{z}, right{all, xz, end};
+  if (!lens) {
+    right.push_back(x);
+    s.corner(end);
+    s.line(x, end);
+  }
+  below.insert(below.end(), arc.rbegin(), arc.rend() - lens);
+  above.insert(above.end(), arc.begin(), arc.end());
+  above.push_back(xz);
+  right.push_back(xy);
+  face({0, -1, 0}, below);
+  face({0, -1, 0}, above);
+  face({1, 0, 0}, right);
+  face({-1, 0, 0}, {o, z, yz, y});
+  face({0, 0, -1}, {y, xy, x, o});
+  face({0, 0, 1}, {yz, z, xz, all});
+  face({0, 1, 0}, {y, yz, all, xy});
+  for (const Vec3& p : {o, x, xz, z, y, xy, all, yz}) s.corner(p);
+  s.line(end, xz);
+  s.edge({CurveKind::circle, centre, {0, 1, 0}, radius, -1}, arc);
+  for (const auto& [a, b] : {std::pair{o, x},
+                             {xz, z},
+                             {z, o},
+                             {o, y},
+                             {x, xy},
+                             {xz, all},
+                             {z, yz},
+                             {y, xy},
+                             {xy, all},
+                             {all, yz},
+                             {yz, y}})
+    s.line(a, b);
+  return s;
+}
+
+// An arc that leaves the lower edge tangentially.
+Shape tangent_arc(double radius) {
+  return arc_on_front({0, 0, radius}, {10, 0, radius - std::sqrt(radius * radius - 100)}, 6);
+}
+
 struct Result {
   Absorbed absorbed;
   Plc plc;
   SurfaceMesh mesh;
-  double smallest_angle = 180;
+  double smallest_angle = 180, area = 0;
 
   explicit Result(const Shape& shape, double max_size, double min_size = 0,
                   std::vector<double> face_size = {}) {
@@ -122,12 +180,14 @@ struct Result {
     const SizeField field(plc, geometry, sizes, context);
     mesh = mesh_surfaces(plc, geometry, field, {}, context);
     check_surface_mesh(mesh, plc, geometry);
-    for (const auto& [a, b, c] : mesh.triangles)
+    for (const auto& [a, b, c] : mesh.triangles) {
+      area += 0.5 * norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
       for (const auto& [i, j, k] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
         const Vec3 u = mesh.points[j] - mesh.points[i], v = mesh.points[k] - mesh.points[i];
         const double angle = std::atan2(norm(cross(u, v)), dot(u, v));
         smallest_angle = std::min(smallest_angle, angle * 180 / std::numbers::pi);
       }
+    }
   }
 };
 
@@ -187,4 +247,25 @@ TEST_CASE("a tiny edge becomes a point") {
     CHECK(r.smallest_angle > 20);
     CHECK(r.mesh.triangles.size() < 700);
   }
+}
+
+TEST_CASE("a tip of a face that runs out tangentially is cut off") {
+  for (const double radius : {30.0, 50.0, 80.0}) {
+    const Shape shape = tangent_arc(radius);
+    Shape kept = shape;
+    kept.plc.kept_edges = {2};
+    REQUIRE(kept.records.edges[2].kind == CurveKind::circle);
+    const Result cut(shape, 2), whole(kept, 2);
+    CHECK_FALSE(cut.absorbed.any());
+    CHECK(cut.smallest_angle > 2 * whole.smallest_angle);
+    CHECK(cut.mesh.triangles.size() < 1.3 * whole.mesh.triangles.size());
+    CHECK(cut.area == doctest::Approx(600).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("both tips of a lens are cut off, on one segment") {
+  const double rise = 0.06, radius = (25 + rise * rise) / (2 * rise);
+  const Result r(arc_on_front({5, 0, rise - radius}, {10, 0, 0}, 8), 2);
+  CHECK_FALSE(r.absorbed.any());
+  CHECK(r.area == doctest::Approx(600).epsilon(1e-4));
 }
