@@ -116,7 +116,7 @@ struct Geometry::Impl {
   struct Face {
     std::unique_ptr<Surface> surface;
     std::array<double, 2> side;
-    bool plane;
+    SurfaceKind kind;
   };
   struct Edge {
     std::unique_ptr<Curve> curve;
@@ -138,7 +138,7 @@ Geometry::Geometry(const Plc& plc, GeometryRecords records) : impl_(std::make_un
     const SurfaceRecord& record = records.faces[i];
     std::unique_ptr<Surface> surface = make_surface(record, records, patches[i]);
     const auto side = sides(*surface, patches[i]);
-    impl_->faces.push_back({std::move(surface), side, record.kind == SurfaceKind::plane});
+    impl_->faces.push_back({std::move(surface), side, record.kind});
   }
   for (std::size_t i = 0; i < edge_count; ++i) {
     const CurveRecord& record = records.edges[i];
@@ -169,7 +169,9 @@ double Geometry::edge_curvature(Index edge, const Vec3& p) const {
   return impl_->edges[edge].curve->curvature(p);
 }
 
-bool Geometry::is_plane(Index face) const { return impl_->faces[face].plane; }
+bool Geometry::is_plane(Index face) const { return impl_->faces[face].kind == SurfaceKind::plane; }
+
+bool Geometry::is_facets(Index face) const { return impl_->faces[face].kind == SurfaceKind::facets; }
 
 bool Geometry::is_line(Index edge) const { return impl_->edges[edge].line; }
 

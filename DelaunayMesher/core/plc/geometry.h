@@ -87,6 +87,7 @@ class Geometry {
   double curvature(Index face, const Vec3& p) const;
   double edge_curvature(Index edge, const Vec3& p) const;
   bool is_plane(Index face) const;
+  bool is_facets(Index face) const;
   bool is_line(Index edge) const;
 
  private:

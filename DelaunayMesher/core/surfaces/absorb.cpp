@@ -14,6 +14,7 @@ namespace {
 constexpr double kAbsorbed = 1.0 / 50;  // width over the size given there
 constexpr double kWidest = 2.5;         // extent of the points that become one, over the tolerance
 constexpr double kTurned = 0.3;         // cosine between a triangle's normals before and after
+constexpr double kFlat = 0.001;         // height of a triangle that has become flat, over the tolerance
 constexpr int kMostFlips = 8;           // per triangle that would turn over
 constexpr double kAcute = 0.7;          // angle between faces that may come to meet, radians
 constexpr double kNarrowed = 0.7;       // that of faces that met before, over what it was
@@ -179,10 +180,16 @@ class Absorber {
       if (p != a && p != b) return p;
     return a;
   }
-  // Or flat, as the last triangle of a face that is all but absorbed.
+  // Or as good as flat, as the last triangle of a face that is all but absorbed.
   bool is_turned(const Triangle& v, const Vec3& before) const {
     const Vec3 after = normal(v);
-    return !(dot(before, after) > kTurned * std::sqrt(norm2(before) * norm2(after)));
+    const double size = norm(after), size_before = norm(before);
+    if (dot(before, after) < kTurned * size_before * size) return true;
+    double longest2 = 0;
+    for (int i = 0; i < 3; ++i)
+      longest2 = std::max(longest2, norm2(plc_.points[v[i]] - plc_.points[v[(i + 1) % 3]]));
+    const double flat = kFlat * tolerance_(plc_.points[v[0]]) * std::sqrt(longest2);
+    return size <= std::min(flat, 0.1 * size_before);
   }
 
   bool moved(std::size_t t) const { return triangles_[t] != plc_.triangles[source_[t]]; }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
+
+#include "surfaces/tips.h"
 
 namespace dm {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
-constexpr double kTip = 0.17;    // width over length of the end of a sharp tip: 10 degrees
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
@@ -33,7 +33,10 @@ class Finder {
 
   std::vector<SmallFeature> run() {
     collect_edges();
-    find_tips();
+    tips_ = find_tips(plc_, geometry_, tolerance_);
+    std::erase_if(tips_, [&](const Tip& tip) {
+      return kept_edge_[tip.edge] || kept_edge_[tip.other_edge] || geometry_.is_facets(tip.face);
+    });
     const std::vector<Index> faces = faces_with_narrow_places();
     if (!faces.empty()) collect_triangles(faces);
     for (const Index f : faces) search_face(f);
@@ -130,59 +133,14 @@ class Finder {
     return true;
   }
 
-  // ---- tips: corners of a face where two of its curves run together, in the end as one
-
-  struct Tip {
-    Index face, point;
-    Index edge, other_edge;
-    Index along;  // the next point of the edge
-  };
-
-  void find_tips() {
-    struct Corner {
-      Index face, point, next, edge;
-    };
-    std::vector<Corner> corners;  // both ends of the segments of every face
-    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) {
-        const Index a = plc_.triangles[t][i], b = plc_.triangles[t][(i + 1) % 3], s = table_.find(a, b);
-        if (s < 0) continue;
-        corners.push_back({plc_.triangle_face[t], a, b, plc_.segment_edge[s]});
-        corners.push_back({plc_.triangle_face[t], b, a, plc_.segment_edge[s]});
-      }
-    const auto key = [](const Corner& c) { return std::tie(c.face, c.point, c.next); };
-    std::sort(corners.begin(), corners.end(), [&](auto& x, auto& y) { return key(x) < key(y); });
-    for (std::size_t i = 0, j = 0; i < corners.size(); i = j) {
-      while (j < corners.size() && corners[j].face == corners[i].face && corners[j].point == corners[i].point)
-        ++j;
-      const Corner &c = corners[i], &d = corners[i + 1];
-      if (j != i + 2 || c.edge == d.edge || kept_edge_[c.edge] || kept_edge_[d.edge]) continue;
-      const Tip tip{c.face, c.point, c.edge, d.edge, c.next};
-      if (is_sharp(tip)) tips_.push_back(tip);
-    }
-  }
-
-  // On the segment (a, b) of the tip's edge, and how far it is from there to the other edge.
-  Vec3 on_edge(const Tip& tip, Index a, Index b, double t) const {
-    return geometry_.project_to_edge(tip.edge, at(a) + t * (at(b) - at(a)));
-  }
-  double gap(const Tip& tip, const Vec3& p) const {
-    return distance(p, geometry_.project_to_edge(tip.other_edge, p));
-  }
-
-  bool is_sharp(const Tip& tip) const {
-    const double length = distance(at(tip.point), at(tip.along)), reach = tolerance_(at(tip.point));
-    if (length == 0) return false;
-    const Vec3 p = on_edge(tip, tip.point, tip.along, std::min(1.0, reach / length));
-    return gap(tip, p) < kTip * distance(p, at(tip.point));
-  }
+  // ---- tips
 
   // Divides the edge where the tip becomes as wide as a narrow part may be; its points before that face the
   // other curve anyway.
   void cut_tip(const Tip& tip) {
     const double widest = kTipEnd * kPart * tolerance_(at(tip.point));
     Index a = tip.point, b = next_on(tip.edge, -1, a);
-    while (b >= 0 && gap(tip, at(b)) < widest) {
+    while (b >= 0 && gap_at(tip, at(b)) < widest) {
       const Index next = edges_of_[b].size() > 1 ? -1 : next_on(tip.edge, a, b);
       a = b;
       b = next;
@@ -191,11 +149,18 @@ class Finder {
     double low = 0, high = 1;
     for (int step = 0; step < kBisections; ++step) {
       const double t = 0.5 * (low + high);
-      (gap(tip, on_edge(tip, a, b, t)) < widest ? low : high) = t;
+      (gap_at(tip, on_edge(tip, a, b, t)) < widest ? low : high) = t;
     }
     const Vec3 place = on_edge(tip, a, b, low);
     if (std::min(distance(place, at(a)), distance(place, at(b))) < tolerance_(place)) return;
     divide(segment(a, b), place, tip.face);
+  }
+
+  Vec3 on_edge(const Tip& tip, Index a, Index b, double t) const {
+    return geometry_.project_to_edge(tip.edge, at(a) + t * (at(b) - at(a)));
+  }
+  double gap_at(const Tip& tip, const Vec3& p) const {
+    return distance(p, geometry_.project_to_edge(tip.other_edge, p));
   }
 
   // The point after b on the curve, coming from a; -1 = none.
@@ -254,8 +219,8 @@ class Finder {
       if (tip.face == face) {
         cut_tip(tip);
         sharp_.insert(tip.point);
+        drop_points(tip);
       }
-    drop_points_near_curves(face);
     std::vector<Segment> open;
     for (const auto& [ends, t] : half_) open.push_back(ends);
     flip(open);
@@ -290,19 +255,16 @@ class Finder {
     return norm(area_vector(at(a), at(b), at(c))) / std::sqrt(longest2);
   }
 
-  // Points of the tessellation inside the face, but nearer to a curve than the tolerance, would lie between
-  // points that face each other.
-  void drop_points_near_curves(Index face) {
-    std::vector<Index> stack = by_face_[face];
+  // Points of the tessellation inside the tip would lie between points that face each other.
+  void drop_points(const Tip& tip) {
+    std::vector<Index> stack = by_face_[tip.face];
     while (!stack.empty() && steps_ > 0) {
       const Index t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
         const auto [a, b] = side(t, i);
-        const Index p = apex(t, {a, b}), s = segment(a, b);
-        if (p < 0 || s < 0 || on_curve(p)) continue;
-        if (!(distance(at(p), geometry_.project_to_edge(plc_.segment_edge[s], at(p))) < tolerance_(at(p))))
-          continue;
+        const Index p = apex(t, {a, b});
+        if (p < 0 || segment(a, b) < 0 || on_curve(p) || !lies_in(tip, p)) continue;
         const bool a_first = distance(at(a), at(p)) < distance(at(b), at(p));
         const std::vector<Index> fan = round_[p];
         if (!collapse(p, a_first ? a : b) && !collapse(p, a_first ? b : a)) continue;
@@ -312,21 +274,28 @@ class Finder {
       }
     }
   }
+  bool lies_in(const Tip& tip, Index p) const {
+    const double limit = tolerance_(at(p));
+    return gap_at(tip, at(p)) < limit && distance(at(p), geometry_.project_to_edge(tip.edge, at(p))) < limit;
+  }
+
+  Vec3 area(const Triangle& v) const { return area_vector(at(v[0]), at(v[1]), at(v[2])); }
 
   // Moves p, inside the face, to its neighbour q; false, and nothing done, if a triangle would turn over.
   bool collapse(Index p, Index q) {
     const std::vector<Index> fan = round_[p];
-    Vec3 n;
-    for (const Index t : fan)
-      n += area_vector(at(plc_.triangles[t][0]), at(plc_.triangles[t][1]), at(plc_.triangles[t][2]));
     std::vector<Index> gone, kept;
-    for (const Index t : fan) (has(t, q) ? gone : kept).push_back(t);
+    Vec3 n;
+    for (const Index t : fan) {
+      (has(t, q) ? gone : kept).push_back(t);
+      n += area(plc_.triangles[t]);
+    }
     if (gone.size() != 2) return false;
     std::vector<Triangle> moved;
     for (const Index t : kept) {
       Triangle& v = moved.emplace_back(plc_.triangles[t]);
       std::replace(v.begin(), v.end(), p, q);
-      if (!(dot(area_vector(at(v[0]), at(v[1]), at(v[2])), n) > 0)) return false;
+      if (!(dot(area(v), n) > 0)) return false;
       for (const Index x : v) {
         const bool linked = half_.contains({q, x}) || half_.contains({x, q}) || segment(q, x) >= 0;
         if (x != q && linked && !has(gone[0], x) && !has(gone[1], x)) return false;
@@ -385,18 +354,16 @@ class Finder {
     }
   }
 
-  // The fan round a tip may have all its triangles.
   bool may_flip(Index a, Index b, Index c) const {
     return height(a, b, c) <= kThin * tolerance_(at(a)) || sharp_.contains(a) || sharp_.contains(b) ||
            sharp_.contains(c);
   }
 
-  // Of the triangles (a, b, c) and (b, a, d): both thin, the angles at c and d over 180 degrees together, and
-  // the new ones facing as the old.
+  // Of the triangles (a, b, c) and (b, a, d): both thin or in the fan round a tip, the angles
+  // at c and d over 180 degrees together, and the new ones facing as the old.
   bool wants_flip(Index a, Index b, Index c, Index d) const {
     if (c == d || !may_flip(a, b, c) || !may_flip(b, a, d)) return false;
-    const Vec3 n1 = area_vector(at(a), at(b), at(c)), n2 = area_vector(at(b), at(a), at(d));
-    const Vec3 m1 = area_vector(at(c), at(a), at(d)), m2 = area_vector(at(d), at(b), at(c));
+    const Vec3 n1 = area({a, b, c}), n2 = area({b, a, d}), m1 = area({c, a, d}), m2 = area({d, b, c});
     const Vec3 n = n1 + n2;
     if (!(dot(m1, n) > 0 && dot(m2, n) > 0) || half_.contains({c, d}) || half_.contains({d, c})) return false;
     const double s1 = norm(n1), s2 = norm(n2);
