@@ -6,7 +6,8 @@
 The example bracket in one FreeCAD under Xvfb; the two take turns and start from an empty mesh object each
 time.  Gmsh is driven as FreeCAD's panel does (GmshTools), with 12 elements per circle and FreeCAD's number of
 threads; its size is chosen so that it makes about as many elements as ours.  The time ends when the object
-is drawn.  A timer of 10 ms tells how long the window stood still.
+is drawn; processor time suffers less from other programs.  A timer of 40 ms tells how long the window stood
+still.
 """
 
 import argparse
@@ -20,6 +21,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [ROOT, os.path.join(ROOT, "tests", "gui")]
 
 FINER = {1: 0.79, 2: 0.79}  # size setting of Gmsh over ours
+TICK = 40  # milliseconds
 OPTIONS = "CLICK_TO_MESH"  # environment variable that tells the window what to do
 
 
@@ -50,16 +52,32 @@ def measured(target, finish):
     ticks = []
     timer = QtCore.QTimer()
     timer.timeout.connect(lambda: ticks.append(time.monotonic()))
-    timer.start(10)
+    timer.start(TICK)
     drive.wait(0.1)
-    begin = time.monotonic()
+    begin, used = time.monotonic(), processor_seconds()
     stages = finish()
     FreeCADGui.updateGui()
-    seconds = time.monotonic() - begin
+    seconds, used = time.monotonic() - begin, processor_seconds() - used
     drive.wait(0.1)
     ticks = [tick for tick in ticks if tick >= begin - 0.05]
     pauses = sorted((b - a for a, b in zip(ticks, ticks[1:])), reverse=True)
-    return {"seconds": seconds, "stages": stages, "pauses": pauses[:4]}
+    return {"seconds": seconds, "processor": used, "stages": stages, "pauses": pauses[:4]}
+
+
+def wait_in_qt(condition):
+    """As when nobody drives the window: Qt's own loop, and Python's lock is left to the mesher's thread."""
+    from PySide import QtCore
+
+    loop, timer = QtCore.QEventLoop(), QtCore.QTimer()
+    timer.timeout.connect(lambda: condition() and loop.quit())
+    timer.start(TICK)
+    loop.exec_()
+    timer.stop()
+
+
+def processor_seconds():
+    """Of FreeCAD and of the programs that it has run."""
+    return sum(os.times()[:4])
 
 
 def ours(part, size, order):
@@ -72,7 +90,7 @@ def ours(part, size, order):
 
     def finish():
         panel.run_box.button.click()
-        drive.wait_until(lambda: not panel.running, 600)
+        wait_in_qt(lambda: not panel.running)
         return json.loads(panel.target.Report)["seconds"]
 
     return panel.target, finish
@@ -130,19 +148,24 @@ def main():
         sys.exit(printed[-3000:])
     rows = [json.loads(line[4:]) for line in printed.splitlines() if line.startswith("ROW ")]
     for order in options.orders:
-        best = {}
-        for row in sorted((row for row in rows if row["order"] == order), key=lambda row: row["seconds"]):
-            best.setdefault(row["mesher"], row)
-        for name, row in best.items():
-            stages = ", ".join("%s %.2f" % item for item in row["stages"].items() if item[1] >= 0.005)
-            print("order %d  %-9s %7d elements  %6.2f s (%s); the window's longest pauses: %s s" % (
-                order, name, row["elements"], row["seconds"], stages,
-                " ".join("%.2f" % pause for pause in row["pauses"]),
-            ))  # fmt: skip
-        speed = {name: row["elements"] / row["seconds"] for name, row in best.items()}
-        print(
-            "order %d  elements per second, ours over Gmsh: %.2f" % (order, speed["ours"] / speed["Gmsh HXT"])
-        )
+        report(order, [row for row in rows if row["order"] == order])
+
+
+def report(order, rows):
+    """The best run of each, and how they compare by both clocks."""
+    rows.sort(key=lambda row: row["seconds"])
+    for name in ("ours", "Gmsh HXT"):
+        row = next(row for row in rows if row["mesher"] == name)
+        stages = ", ".join("%s %.2f" % item for item in row["stages"].items() if item[1] >= 0.005)
+        pauses = " ".join("%.2f" % pause for pause in row["pauses"])
+        print("order %d, %s: %d elements, %.2f s, processor %.2f s; longest pauses of the window %s s (%s)"
+              % (order, name, row["elements"], row["seconds"], row["processor"], pauses, stages))  # fmt: skip
+    for clock in ("seconds", "processor"):
+        speed = {}
+        for row in rows:
+            speed[row["mesher"]] = max(speed.get(row["mesher"], 0.0), row["elements"] / row[clock])
+        print("order %d, elements per second (%s), ours over Gmsh: %.2f"
+              % (order, clock, speed["ours"] / speed["Gmsh HXT"]))  # fmt: skip
 
 
 if OPTIONS in os.environ and "OUTPUT" in os.environ:
