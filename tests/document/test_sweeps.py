@@ -116,3 +116,13 @@ def test_a_size_keeps_what_is_small():
     face = next(i for i, f in enumerate(shape.Faces, 1) if f.Area < 2)
     mesh = DelaunayMesher.mesh(shape, max_size=8.0, sizes={"Face%d" % face: 0.5}, threads=1)
     assert (mesh.triangle_face == face - 1).any() or (mesh.triangle_face == face).any()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_long_narrow_fillets_keep_their_bend(seed):
+    """Their tessellation has no point along the fillet: no triangle may span it before there are."""
+    box = Part.makeBox(50, 30, 20)
+    rounded = box.makeFillet(0.2, [box.Edges[0], box.Edges[1], box.Edges[4]])
+    mesh = DelaunayMesher.mesh(rounded, max_size=2.466, seed=seed)
+    assert mesh.quality["min_dihedral"] > 20
+    assert not mesh.warnings

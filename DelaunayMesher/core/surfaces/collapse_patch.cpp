@@ -8,7 +8,7 @@
 namespace dm {
 namespace {
 
-constexpr double kAligned = 0.5;
+constexpr double kAligned = 0.5;      // of triangles of the wanted size
 constexpr double kSlack = 0.1;        // of alignment, where the triangles are poorly aligned already
 constexpr double kWorstShape = 1e-4;  // of a triangle that a collapse may leave (flips improve it afterwards)
 constexpr double kLongest = 1.45;     // edge made by a collapse, over the wanted length
@@ -17,14 +17,14 @@ constexpr double kLongest = 1.45;     // edge made by a collapse, over the wante
 
 // Smallest shape of the triangles that collapsing `gone` along e leaves; negative when one of them turns away
 // from the surface (more than some did before), is degenerate, or has an edge longer than max_ratio.
-double PatchRemesher::collapse_quality(Index e, Index gone, double max_ratio) const {
+double PatchRemesher::collapse_quality(Index e, Index gone, double max_ratio, double aligned) const {
   const Index keep = patch_.origin(e) == gone ? patch_.target(e) : patch_.origin(e);
-  double least = kAligned;  // what new triangles must reach: no worse than what is there
+  double least = aligned;  // what new triangles must reach: no worse than what is there
   patch_.for_each_corner(gone, [&](Index c) {
     const double now = alignment(gone, patch_.vertex[FacePatch::next(c)], patch_.vertex[FacePatch::prev(c)]);
     least = std::min(least, now);
   });
-  if (least < kAligned) least = std::max(least - kSlack, least > 0 ? 0.05 : -0.9);
+  if (least < aligned) least = std::max(least - kSlack, least > 0 ? 0.05 : -0.9);
   double worst = 1;
   patch_.for_each_corner(gone, [&](Index c) {
     if (worst < 0) return;
@@ -41,7 +41,7 @@ double PatchRemesher::collapse_quality(Index e, Index gone, double max_ratio) co
 // ---- old boundary points
 
 // Flips edges at v away until only one triangle is left there, as far as nothing folds.
-bool PatchRemesher::flip_towards_ear(Index v) {
+bool PatchRemesher::flip_towards_ear(Index v, double aligned) {
   bool any = false;
   for (bool again = true; again;) {
     again = false;
@@ -51,7 +51,7 @@ bool PatchRemesher::flip_towards_ear(Index v) {
       if (found >= 0 || patch_.twin[e] < 0) return;
       const Index m = patch_.twin[e];
       const Index a = patch_.apex(e), d = patch_.apex(m), b = patch_.target(e);
-      if (a == d || alignment(a, v, d) < kAligned || alignment(d, b, a) < kAligned) return;
+      if (a == d || alignment(a, v, d) < aligned || alignment(d, b, a) < aligned) return;
       if (triangle_shape(points()[d], points()[b], points()[a]) < kWorstShape) return;
       if (patch_.find_edge(a, d) < 0) found = e;
     });
@@ -63,9 +63,9 @@ bool PatchRemesher::flip_towards_ear(Index v) {
   return any;
 }
 
-bool PatchRemesher::remove_boundary_vertex(Index v) {
+bool PatchRemesher::remove_boundary_vertex(Index v, double aligned) {
   for (const bool flipped : {false, true}) {
-    if (flipped && !flip_towards_ear(v)) break;
+    if (flipped && !flip_towards_ear(v, aligned)) break;
     Index sides[2] = {-1, -1};
     patch_.for_each_corner(v, [&](Index c) {
       if (patch_.twin[FacePatch::prev(c)] < 0) sides[0] = FacePatch::prev(c);
@@ -75,7 +75,7 @@ bool PatchRemesher::remove_boundary_vertex(Index v) {
     Index side = -1;
     for (const Index e : sides) {
       if (e < 0 || !patch_.can_collapse(e, v)) continue;
-      const double q = collapse_quality(e, v, HUGE_VAL);
+      const double q = collapse_quality(e, v, HUGE_VAL, aligned);
       if (q > best) {
         best = q;
         side = e;
@@ -93,14 +93,14 @@ bool PatchRemesher::remove_boundary_vertex(Index v) {
   return false;
 }
 
-void PatchRemesher::remove_dropped() {
+void PatchRemesher::remove_dropped(double aligned) {
   std::vector<Index> work;
   for (Index v = 0; v < patch_.vertex_count(); ++v)
     if (patch_.kinds[v] == VertexKind::dropped) work.push_back(v);
   while (!work.empty()) {
     std::vector<Index> left;
     for (Index v : work)
-      if (!remove_boundary_vertex(v)) left.push_back(v);
+      if (!remove_boundary_vertex(v, aligned)) left.push_back(v);
     poll_();
     if (left.size() == work.size()) return;
     work = std::move(left);
@@ -124,7 +124,7 @@ void PatchRemesher::collapse_short(double ratio) {
           e = FacePatch::prev(c);
         }
       });
-      if (e < 0 || !patch_.can_collapse(e, v) || collapse_quality(e, v, kLongest) < 0) continue;
+      if (e < 0 || !patch_.can_collapse(e, v) || collapse_quality(e, v, kLongest, kAligned) < 0) continue;
       const Index keep = patch_.target(e);
       patch_.collapse(e, v);
       push_star(keep);

@@ -41,16 +41,16 @@ PatchRemesher::PatchRemesher(FacePatch& patch, Index face, const Geometry& geome
 std::vector<Index> PatchRemesher::run() {
   insert_samples();
   make_delaunay();
-  remove_dropped();
+  remove_dropped(kAligned);
   collapse_short(0.6);
   make_delaunay();
   refine(0.78);
-  remove_dropped();
+  remove_dropped(kAlignedShort);
   smooth(2);
   collapse_short(0.6);
   refine(0.82);
   smooth(2);
-  remove_dropped();
+  remove_dropped(kAlignedShort);
   jitter();
   std::vector<Index> left;
   for (Index v = 0; v < patch_.vertex_count(); ++v)

@@ -47,7 +47,8 @@ class PatchRemesher {
   // The steps, each leaving a valid patch.
   void insert_samples();  // puts the pending samples in, coarse to fine, with Lawson flips in between
   void make_delaunay();   // Lawson flips over the whole patch
-  void remove_dropped();  // collapse old boundary points
+  // Collapses old boundary points; `aligned`: the least alignment of triangles that this may leave.
+  void remove_dropped(double aligned);
   void collapse_short(double ratio);
   void refine(double radius_ratio);
   void smooth(int sweeps);
@@ -77,10 +78,10 @@ class PatchRemesher {
   void push_star(Index v);
   void lawson();
 
-  bool remove_boundary_vertex(Index v);
-  bool flip_towards_ear(Index v);
-  double collapse_quality(Index e, Index gone,
-                          double max_ratio) const;  // worst new triangle, < 0: not allowed
+  bool remove_boundary_vertex(Index v, double aligned);
+  bool flip_towards_ear(Index v, double aligned);
+  // Worst new triangle, < 0: not allowed.
+  double collapse_quality(Index e, Index gone, double max_ratio, double aligned) const;
 
   void enqueue(Index t);
   bool insert_near_centre(Index t);
