@@ -161,22 +161,24 @@ def summary(points, tets):
         return {}
     parts = [tets[start : start + CHUNK] for start in range(0, len(tets), CHUNK)]
     histogram, below = np.zeros(36, np.int64), np.zeros(len(DIHEDRAL_LIMITS), np.int64)
-    extremes, sums = [], np.zeros(2)
+    extremes, sums, length_counts = [], np.zeros(2), 0
     for part in parts:
         angles = dihedral_angles(points, part)
         smallest = angles.min(axis=1)
-        radius_edge = radius_edge_ratio(points, part)
+        lengths, inside, outside = (f(points, part) for f in (edge_lengths, inradius, circumradius))
+        radius_edge = _ratio(outside, lengths.min(axis=1), np.inf)
+        length_counts += logarithms(lengths)
         histogram += np.histogram(angles, 36, (0, 180))[0]
         below += [(smallest < limit).sum() for limit in DIHEDRAL_LIMITS]
         sums += smallest.sum(), radius_edge.sum()
         extremes.append(
             (
                 smallest.min(),
-                radius_ratio(points, part).min(),
+                (3 * inside / outside).min(),
                 volumes(points, part).min(),
                 -angles.max(),
                 -radius_edge.max(),
-                -aspect_ratio(points, part).max(),
+                -_ratio(lengths.max(axis=1), 2 * np.sqrt(6) * inside, np.inf).max(),
             )
         )
     low = np.min(extremes, axis=0).tolist()
@@ -191,18 +193,20 @@ def summary(points, tets):
         "radius_ratio_min": low[1],
         "aspect_max": -low[5],
         "min_volume": low[2],
-        "median_edge": median(edge_lengths(points, part).ravel() for part in parts),
+        "median_edge": median(length_counts),
     }
     if np.asarray(tets).shape[1] == 10:
         result["min_scaled_jacobian"] = float(min(scaled_jacobian(points, part).min() for part in parts))
     return result
 
 
-def median(pieces):
-    """Median of positive numbers that come in pieces, to 1e-4 of it: by a histogram of logarithms."""
-    counts = np.zeros(2 * BINADES * BINS, np.int64)
-    for piece in pieces:
-        bins = (BINS * (np.log2(piece) + BINADES)).astype(np.int64)
-        counts += np.bincount(np.clip(bins, 0, len(counts) - 1), minlength=len(counts))
+def logarithms(values):
+    """Histogram of the logarithms of positive numbers, for median()."""
+    bins = (BINS * (np.log2(values.ravel()) + BINADES)).astype(np.int64)
+    return np.bincount(np.clip(bins, 0, 2 * BINADES * BINS - 1), minlength=2 * BINADES * BINS)
+
+
+def median(counts):
+    """Median of numbers of which the sum of logarithms() is given, to 1e-4 of it."""
     middle = np.searchsorted(np.cumsum(counts), counts.sum() / 2)
     return float(2.0 ** ((middle + 0.5) / BINS - BINADES))
