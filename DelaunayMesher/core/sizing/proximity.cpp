@@ -1,6 +1,6 @@
 #include "sizing/proximity.h"
 
-#include <unordered_set>
+#include <unordered_map>
 
 #include "base/random.h"
 #include "sizing/shared_edges.h"
@@ -30,6 +30,8 @@ struct Patch {
   int empty_side;
 };
 
+double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
+
 class Prober {
  public:
   Prober(const Plc& plc, const Geometry& geometry, const BoundaryTree& boundary, const SizeOptions& options)
@@ -50,14 +52,28 @@ class Prober {
     const Vec3 normal = area_vector(p[0], p[1], p[2]);
     if (!(norm2(normal) > 0)) return;
     normal_ = normalized(normal);
+    if (!(longest(p) < local_size)) return visit(p, 0);
     // Of the triangles of a fine tessellation one per face and cube is enough.
-    if (longest(p) < local_size && !seen_.insert(cube((1.0 / 3) * (p[0] + p[1] + p[2]))).second) return;
+    const auto [known, first] = seen_.try_emplace(cube((1.0 / 3) * (p[0] + p[1] + p[2])));
+    if (!first) return known->second.add(walls, 0.5 * norm(normal));
+    const std::size_t begin = walls.size();
     visit(p, 0);
+    known->second = {begin, walls.size(), 0.5 * norm(normal)};
   }
   std::vector<Patch> patches;
   std::vector<ThinWall> walls;
 
  private:
+  // The walls found for a triangle, which stand for others in its cube.
+  struct Sample {
+    std::size_t begin = 0, end = 0;
+    double area = 0;
+
+    void add(std::vector<ThinWall>& all, double more) const {
+      for (std::size_t i = begin; i < end; ++i) all[i].weight += more / area;
+    }
+  };
+
   static double longest(const std::array<Vec3, 3>& p) {
     return std::sqrt(std::max({norm2(p[1] - p[0]), norm2(p[2] - p[1]), norm2(p[0] - p[2])}));
   }
@@ -121,7 +137,9 @@ class Prober {
   void visit(const std::array<Vec3, 3>& p, int depth) {
     const Vec3 middle = (1.0 / 3) * (p[0] + p[1] + p[2]);
     const double edge = longest(p);
-    if (edge <= 4 * local_size_ && clear_.contains(cube(middle))) return;
+    if (edge <= 4 * local_size_)
+      if (const auto known = clear_.find(cube(middle)); known != clear_.end())
+        return known->second.add(walls, area(p));
     double low = size_at(middle), high = low;
     if (edge > std::min(local_size_, low))
       for (const Vec3& corner : p) {
@@ -134,8 +152,9 @@ class Prober {
     const bool enough =
         found ? (even || edge <= 2 * low) && edge <= 16 * local_size_ : edge <= 4 * local_size_;
     if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
-      if (!found) clear_.insert(cube(middle));
+      const std::size_t begin = walls.size();
       if (low < HUGE_VAL && wall_) walls.push_back({p, width_});
+      if (!found) clear_.try_emplace(cube(middle), Sample{begin, walls.size(), area(p)});
       if (found) patches.push_back({p, low, width_, curvature(middle), wall_, empty_side(plc_, face_)});
       return;
     }
@@ -163,10 +182,9 @@ class Prober {
   Vec3 normal_;
   bool wall_ = false;
   std::int64_t places_ = 0;
-  std::unordered_set<std::uint64_t> seen_, clear_;  // cubes: probed for a triangle, found without walls
+  std::unordered_map<std::uint64_t, Sample> seen_,
+      clear_;  // cubes: probed for a triangle, without small sizes
 };
-
-double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
 
 // The smallest size at which walls and gaps stay within their budget of elements.
 double affordable(const std::vector<Patch>& patches, double growth, double budget, double from, double to) {

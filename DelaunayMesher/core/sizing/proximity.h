@@ -19,7 +19,8 @@ namespace dm {
 // A triangle with a wall behind it that is at most about one element thick.
 struct ThinWall {
   std::array<Vec3, 3> corner;
-  double width;  // mm
+  double width;       // mm
+  double weight = 1;  // with triangles beside it that are taken to be like it: their area, over its own
 };
 
 struct ProximityResult {

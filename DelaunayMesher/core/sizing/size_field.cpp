@@ -136,7 +136,8 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
     const double per_area = std::clamp(kPerWallArea * (kThickWall - layers), 0.0, kMostPerWallArea);
     if (per_area > 0)
       impl_->predicted +=
-          per_area * inverse_area([&](const Vec3& x) { return at(x); }, p, q, r, impl_->constant ? 0 : 8);
+          wall.weight * per_area *
+          inverse_area([&](const Vec3& x) { return at(x); }, p, q, r, impl_->constant ? 0 : 8);
   }
 }
 
