@@ -13,9 +13,9 @@ std::vector<Box> triangle_boxes(const Plc& plc) {
   return boxes;
 }
 
-// Distance along a ray at which it enters the box, infinity if it misses.
-double entry(const Box& box, const Vec3& origin, const Vec3& inverse) {
-  double from = 0, to = HUGE_VAL;
+// Distance along a ray of length `to` at which it enters the box, infinity if it misses.
+inline double entry(const Box& box, const Vec3& origin, const Vec3& inverse, double to) {
+  double from = 0;
   for (int i = 0; i < 3; ++i) {
     const double a = (box.low[i] - origin[i]) * inverse[i], b = (box.high[i] - origin[i]) * inverse[i];
     // A ray within the plane of a side gives 0 * infinity = NaN, which min and max in this order ignore.
@@ -61,8 +61,8 @@ RayHit BoundaryTree::first_hit(const Vec3& origin, const Vec3& direction, double
     const BoxTree::Node& node = tree_.nodes()[next.node];
     for (Index k = 0; k < node.count; ++k) ask(tree_.order()[node.first + k]);
     if (node.count > 0) continue;
-    Entry near{node.first, entry(tree_.nodes()[node.first].box, origin, inverse)};
-    Entry far{node.first + 1, entry(tree_.nodes()[node.first + 1].box, origin, inverse)};
+    Entry near{node.first, entry(tree_.nodes()[node.first].box, origin, inverse, hit.distance)};
+    Entry far{node.first + 1, entry(tree_.nodes()[node.first + 1].box, origin, inverse, hit.distance)};
     if (far.entry < near.entry) std::swap(near, far);
     if (far.entry < HUGE_VAL) stack[top++] = far;
     if (near.entry < HUGE_VAL) stack[top++] = near;

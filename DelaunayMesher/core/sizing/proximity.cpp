@@ -1,6 +1,7 @@
 #include "sizing/proximity.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 #include "base/random.h"
 #include "sizing/shared_edges.h"
@@ -134,6 +135,16 @@ class Prober {
     return size;
   }
 
+  // Of corners in the same cube without a wall or gap, one is enough.
+  double size_unless_clear(const Vec3& p) {
+    const std::uint64_t here = cube(p);
+    if (clear_.find(here) != clear_.end() || clear_corners_.find(here) != clear_corners_.end())
+      return HUGE_VAL;
+    const double size = size_at(p);
+    if (size == HUGE_VAL) clear_corners_.insert(here);
+    return size;
+  }
+
   void visit(const std::array<Vec3, 3>& p, int depth) {
     const Vec3 middle = (1.0 / 3) * (p[0] + p[1] + p[2]);
     const double edge = longest(p);
@@ -143,7 +154,7 @@ class Prober {
     double low = size_at(middle), high = low;
     if (edge > std::min(local_size_, low))
       for (const Vec3& corner : p) {
-        const double s = size_at(0.9 * corner + 0.1 * middle);
+        const double s = size_unless_clear(0.9 * corner + 0.1 * middle);
         low = std::min(low, s);
         high = std::max(high, s);
       }
@@ -182,6 +193,7 @@ class Prober {
   Vec3 normal_;
   bool wall_ = false;
   std::int64_t places_ = 0;
+  std::unordered_set<std::uint64_t> clear_corners_;
   std::unordered_map<std::uint64_t, Sample> seen_,
       clear_;  // cubes: probed for a triangle, without small sizes
 };
