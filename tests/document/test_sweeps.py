@@ -111,6 +111,16 @@ def test_low_steps_cost_nothing(step):
         assert any("far smaller than the elements" in warning for warning in mesh.warnings)
 
 
+@pytest.mark.parametrize("side, size", [(0.1, 2.0), (0.3, 4.0)])
+def test_tetrahedra_grade_towards_triangles_smaller_than_the_size(side, size):
+    """Round a short CAD edge the surface mesh is finer than the size field knows."""
+    corners = [(0, 0), (20, 0), (20, 20), (10 + side, 20), (10, 20 + side), (0, 20), (0, 0)]
+    outline = Part.makePolygon([V(x, y, 0) for x, y in corners])
+    shape = Part.Face(outline).extrude(V(0, 0, 10))
+    mesh = DelaunayMesher.mesh(shape, max_size=size, optimise=False, threads=1)
+    assert mesh.quality["min_dihedral"] > 19.9
+
+
 def test_a_size_keeps_what_is_small():
     shape = stepped_block(0.05)
     face = next(i for i, f in enumerate(shape.Faces, 1) if f.Area < 2)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "boundary/recovery.h"
+#include "curves/length_field.h"
 
 namespace dm {
 
@@ -39,7 +40,7 @@ bool is_flat(const Triangulation& tets, Index tet);
 
 // Circumradius bound of the refinement: rho(x)^2.
 struct RadiusBound {
-  const SizeField& size;
+  const LengthField& size;
   double factor = 0.72;
   double squared(const Vec3& p) const {
     const double r = factor * size.at(p);

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "refinement/angle_test.h"
 #include "refinement/boundary_flip.h"
+#include "refinement/boundary_lengths.h"
 #include "refinement/boundary_site.h"
 #include "refinement/constrained_cavity.h"
 #include "refinement/thin_gap.h"
@@ -41,8 +42,8 @@ class Refinement {
       : mesh_(mesh),
         tets_(mesh.tets),
         geometry_(geometry),
-        size_(size),
-        bound_{size},
+        lengths_(lengths_inside(mesh, size)),
+        bound_{lengths_},
         options_(options),
         context_(context),
         report_(report),
@@ -73,7 +74,7 @@ class Refinement {
 
  private:
   bool is_inside(Index tet) const { return !tets_.is_free(tet) && tets_.tag(tet) != 0; }
-  double edge_size(const Vec3& p) const { return 0.8 * size_.at(p); }
+  double edge_size(const Vec3& p) const { return 0.8 * lengths_.at(p); }
 
   Sphere sphere_of(Index tet) const {
     const auto [a, b, c, d] = tets_.corners(tet);
@@ -411,7 +412,7 @@ class Refinement {
   LabelledTriangulation& mesh_;
   Triangulation& tets_;
   const Geometry& geometry_;
-  const SizeField& size_;
+  const LengthField lengths_;
   RadiusBound bound_;
   const RefineOptions& options_;
   Context& context_;
