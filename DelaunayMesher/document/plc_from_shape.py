@@ -151,7 +151,9 @@ def check_solid(shape):
             hint = "faces: %d; they close, make a solid of them (Part: Convert to solid)" % len(shape.Faces)
         else:
             hint = "faces: %d; close it and make a solid of it (Part: Convert to solid)" % len(shape.Faces)
-        raise MeshError("plc", "not_a_solid", "the shape is a %s without a solid (%s)" % (kind, hint))
+        article = "an" if kind == "edge" else "a"
+        text = "the shape is %s %s without a solid (%s)" % (article, kind, hint)
+        raise MeshError("plc", "not_a_solid", text)
     bounds = shape.BoundBox
     if not bounds.isValid() or not np.isfinite(bounds.DiagonalLength):
         raise MeshError("plc", "not_finite", "the shape has no finite extent")
