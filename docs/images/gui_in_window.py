@@ -1,9 +1,7 @@
 """Runs in FreeCAD's window (see make_pictures.py): the steps of docs/gui.md, one picture each."""
 
-import drive
 import FreeCADGui
-from drive import wait, wait_until
-from small_picture import picture
+from small_picture import drive, picture
 
 
 def run(panel):
@@ -21,12 +19,12 @@ def open_part():
 def mesh_panel(part):
     panel = drive.open_panel(part)
     panel.options_box.preview_button.click()
-    wait_until(lambda: panel.preview.overlay is not None)
+    drive.wait_until(lambda: panel.preview.overlay is not None)
     picture("preview")
     run(panel)
     picture("meshed")
     panel.reject()
-    wait(0.3)
+    drive.wait(0.3)
     return panel.target
 
 
@@ -35,12 +33,12 @@ def refinement(part, target):
     part.ViewObject.show()
     drive.select(part, *bore(part))
     FreeCADGui.runCommand("DelaunayMesher_RefineFaces")
-    wait(0.5)
+    drive.wait(0.5)
     picture("refine")
     FreeCADGui.ActiveDocument.resetEdit()
-    wait(0.3)
+    drive.wait(0.3)
     target.ViewObject.Proxy.doubleClicked(target.ViewObject)
-    wait(0.3)
+    drive.wait(0.3)
     run(drive.panel())
     picture("refined")
 
@@ -55,11 +53,11 @@ def quality():
     from DelaunayMesher.gui.task_quality import QualityPanel
 
     drive.panel().run_box.quality_button.click()
-    wait(0.5)
+    drive.wait(0.5)
     panel = QualityPanel.current
     panel.cut_box.axis.setCurrentIndex(2)
     panel.cut_box.slider.setValue(100)
-    wait(0.2)
+    drive.wait(0.2)
     picture("quality")
     panel.cut_box.axis.setCurrentIndex(0)
     panel.worst_box.table.selectRow(0)

@@ -1,11 +1,16 @@
 """Small pictures of FreeCAD's window for the documentation (used by the scripts that run inside it)."""
 
 import os
+import sys
 
-import drive
 import numpy as np
 from PySide import QtCore, QtGui
 from scipy.spatial import cKDTree
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(ROOT, "tests", "gui"))
+
+import drive  # noqa: E402
 
 WIDTH = 1000
 COLOURS = 160

@@ -1,10 +1,8 @@
 """Runs in FreeCAD's window (see make_pictures.py): the steps of docs/tutorial.md, one picture each."""
 
-import drive
 import FreeCADGui
-from drive import say, wait, wait_until
 from PySide import QtGui
-from small_picture import picture
+from small_picture import drive, picture
 
 FORCE = 8000.0  # N
 
@@ -17,7 +15,7 @@ def face_where(part, wanted):
 def click(part, element):
     """As a click on the part in the view: the element is selected."""
     drive.select(part, element)
-    wait(0.2)
+    drive.wait(0.2)
 
 
 def fix_the_foot(part):
@@ -27,7 +25,7 @@ def fix_the_foot(part):
     click(part, face_where(part, lambda box: box.ZMax < 1e-6))
     picture("1_foot")
     FreeCADGui.runCommand("DelaunayMesher_Fix")
-    wait(0.3)
+    drive.wait(0.3)
 
 
 def pull_at_the_bore(part):
@@ -35,15 +33,15 @@ def pull_at_the_bore(part):
     click(part, face_where(part, lambda box: abs(box.ZLength - 26) < 1e-6 and box.XLength > 20))
     picture("2_bore")
     FreeCADGui.runCommand("DelaunayMesher_Force")
-    wait(0.5)
+    drive.wait(0.5)
     force = FreeCADGui.ActiveDocument.getInEdit().Object
     field = next(box for box in spin_boxes() if box.objectName() == "spinForce")
     field.setProperty("rawValue", FORCE)
-    wait(0.2)
+    drive.wait(0.2)
     picture("3_force")
     button(QtGui.QDialogButtonBox.Ok).click()
-    wait(0.5)
-    say(force.Force, "left in edit:", FreeCADGui.ActiveDocument.getInEdit())
+    drive.wait(0.5)
+    drive.say(force.Force, "left in edit:", FreeCADGui.ActiveDocument.getInEdit())
 
 
 def spin_boxes():
@@ -64,8 +62,8 @@ def mesh_and_solve(part):
     panel = drive.open_panel(part)
     picture("4_mesh")
     panel.run_box.solve_button.click()
-    wait_until(lambda: not panel.running)
-    say(panel.run_box.log.toPlainText())
+    drive.wait_until(lambda: not panel.running)
+    drive.say(panel.run_box.log.toPlainText())
     assert panel.run_box.status.text() == "Solved"
     drive.view_all()
     bring_to_view(panel.run_box)
@@ -78,7 +76,7 @@ def bring_to_view(box):
     for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea):
         if area.isAncestorOf(box):
             area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
-    wait(0.2)
+    drive.wait(0.2)
 
 
 def main():

@@ -9,8 +9,7 @@ import shutil
 import signal
 import subprocess
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SETTINGS = """<?xml version="1.0" encoding="UTF-8" standalone="no" ?>
 <FCParameters><FCParamGroup Name="Root"><FCParamGroup Name="BaseApp"><FCParamGroup Name="Preferences">
 <FCParamGroup Name="General"><FCText Name="AutoloadModule">PartWorkbench</FCText>
@@ -42,12 +41,13 @@ def make_home(home, language="English"):
 
 
 def run_in_window(script, home, output, seconds=300, language="English"):
-    """Run a script in FreeCAD's window; returns all it printed.  `output`: folder for its files."""
+    """Run a script in FreeCAD's window; returns all it printed.  `output`: folder for its files.
+
+    FreeCAD puts the script's folder on sys.path, and leaves PYTHONPATH out.
+    """
     make_home(str(home), language)
-    folders = [os.path.dirname(os.path.abspath(script)), HERE]  # scripts import drive and each other
     environment = {
         **os.environ,
-        "PYTHONPATH": os.pathsep.join(folders),
         "HOME": str(home),
         "OUTPUT": str(output),
         "QTWEBENGINE_DISABLE_SANDBOX": "1",
