@@ -12,6 +12,7 @@ import numpy as np
 import Part
 
 from .splines import plane_through, surface_record
+from .tessellation import ONE_TURN
 
 FACETS, PLANE, CYLINDER, CONE, SPHERE, TORUS, SPLINE = range(7)
 PARAMETERS = 8  # origin (3), axis (3), a, b
@@ -113,7 +114,7 @@ def spline_candidates(face, surface):
     elif isinstance(surface, Part.BezierSurface):
         yield surface.toBSpline(), face.ParameterRange, True
     try:
-        converted = face.toNurbs().Faces[0]
+        converted = one_turn(face, surface).toNurbs().Faces[0]
         surface = converted.Surface
     except (RuntimeError, IndexError, TypeError, ValueError):  # OCC gives up on this face
         return
@@ -121,6 +122,14 @@ def spline_candidates(face, surface):
         surface = surface.toBSpline()
     if isinstance(surface, Part.BSplineSurface):
         yield surface, converted.ParameterRange, False
+
+
+def one_turn(face, surface):
+    """The face, or the part of its surface of revolution that goes round once if the face laps itself."""
+    u0, u1, v0, v1 = face.ParameterRange
+    if isinstance(surface, Part.SurfaceOfRevolution) and u1 - u0 > ONE_TURN:
+        return surface.toShape(u0, u0 + 2.0 * np.pi, v0, v1)
+    return face
 
 
 def agrees(surface, face):

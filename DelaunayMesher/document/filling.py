@@ -1,7 +1,8 @@
 """Fills what OCC left out of a tessellation: faces without triangles, tips of faces, crossing outlines.
 
-Idea: the triangle edges of a solid without a neighbour make closed loops. Beside a loop's segments lies the
-CAD face that misses there; its triangles are made from its loops alone (patch.py). Precondition: a
+Idea: a face without triangles gets them from its outline (patch.py). Then the triangle edges of a solid
+without a neighbour make closed loops; beside a loop's segments lies the CAD face that misses there, whose
+triangles are made from the loop in the same way. Precondition: a
 tessellation with gaps, sides of the faces. Postcondition: every filled loop is closed. Cost: O(n^3) for a
 loop of n points, vectorised. Limit: a loop along one face's free edge stays open, because nothing says what
 is missing there.
@@ -25,26 +26,53 @@ def fill(mesh, sides):
     clean: whether no filled plane face has outlines that cross each other.
     """
     filled, clean, beside = set(), True, faces_of_segments(mesh)
+    present = np.bincount(mesh.triangle_face, minlength=len(mesh.faces)) > 0
+    for face in np.flatnonzero(~present & sides.any(axis=1)).tolist():
+        loops = outline(mesh, face)
+        if loops:
+            mesh, flawless = with_face(mesh, face, loops, 1.0)
+            clean &= flawless
+            filled.add(face)
     for solid in range(1, len(mesh.shape.Solids) + 1):
         loops = labelled_loops(mesh, sides, solid, beside)
         for face in sorted(loops):
             inward = sides[face, 1] == solid and sides[face, 0] != solid
-            points, triangles, flawless = fill_face(mesh, face, loops[face], -1.0 if inward else 1.0)
+            mesh, flawless = with_face(mesh, face, loops[face], -1.0 if inward else 1.0)
             clean &= flawless
-            if not len(triangles):
-                continue
             filled.add(face)
-            if not len(mesh.face_nodes[face]):
-                mesh.face_nodes[face] = mesh.points[np.unique(np.concatenate(loops[face]))]
-            if inward:
-                triangles = triangles[:, ::-1]
-            mesh = replace(
-                mesh,
-                points=points,
-                triangles=np.concatenate([mesh.triangles, triangles]),
-                triangle_face=np.concatenate([mesh.triangle_face, np.full(len(triangles), face)]),
-            )
     return mesh, sorted(filled), clean
+
+
+def with_face(mesh, face, loops, sign):
+    """(Tessellation with triangles of a face inside loops, whether no outlines cross); see fill_face()."""
+    points, triangles, flawless = fill_face(mesh, face, loops, sign)
+    if not len(mesh.face_nodes[face]):
+        mesh.face_nodes[face] = mesh.points[np.unique(np.concatenate(loops))]
+    mesh = replace(
+        mesh,
+        points=points,
+        triangles=np.concatenate([mesh.triangles, triangles if sign > 0 else triangles[:, ::-1]]),
+        triangle_face=np.concatenate([mesh.triangle_face, np.full(len(triangles), face)]),
+    )
+    return mesh, flawless
+
+
+def outline(mesh, face):
+    """The loops of points round a CAD face as its edges run; [] where these do not close."""
+    following, edges = {}, mesh.face_edges[face]
+    for edge, shape in zip(edges, mesh.faces[face].Edges):
+        if mesh.seam_faces.get(edge) == face:
+            continue
+        for a, b in mesh.segments[mesh.segment_edge == edge].tolist():
+            a, b = (b, a) if shape.Orientation == "Reversed" else (a, b)
+            following.setdefault(a, []).append((b, {face}))
+    starts = Counter({a: len(ends) for a, ends in following.items()})
+    if starts != Counter(b for ends in following.values() for b, _ in ends):
+        return []
+    loops = []
+    while following:
+        loops.append(next_loop(following)[0])
+    return loops if all(3 <= len(loop) <= LONGEST for loop in loops) else []
 
 
 def faces_of_segments(mesh):

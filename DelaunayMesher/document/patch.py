@@ -15,7 +15,7 @@ from ..errors import MeshError
 from ..polygons import triangulate_facet
 
 AREA = 1.001  # of the area itself, beside the area along the normals: settles what they leave open
-NEAR = 0.05  # of its length: how far an inner edge may be from the surface
+NEAR = 0.07  # of its length: how far an inner edge may be from the surface
 CLEAR = 0.2  # of its length: how far from others the point in its middle must be
 ROUNDS = 8
 

@@ -17,6 +17,7 @@ from .merge_points import merge_points
 from .strips import is_narrow, strip_facets
 
 INTERIOR = ("Internal", "External")
+COARSE_ANGLE = 0.3  # radians
 ONE_TURN = 2.02 * np.pi
 ROUND = (Part.Cylinder, Part.Cone, Part.Sphere, Part.Toroid, Part.SurfaceOfRevolution)
 
@@ -154,6 +155,9 @@ def edge_lines(faces, edges, face_edges, without, linear):
     for number in {edge for face in without for edge in face_edges[face]}:
         if not lines[number] and not edges[number].Degenerated:
             lines[number] = edges[number].discretize(Deflection=linear)
+    for number in {edge for mine in face_edges for edge in mine}:  # none of its faces has triangles
+        if not lines[number] and not edges[number].Degenerated:
+            lines[number] = edges[number].discretize(Angular=COARSE_ANGLE, Curvature=linear, Minimum=3)
     return lines
 
 

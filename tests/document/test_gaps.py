@@ -112,6 +112,20 @@ def test_a_face_that_is_missing_is_filled(name):
         assert len(mesh.face_nodes[face])
 
 
+@pytest.mark.parametrize("name", ["cylinder", "cone_frustum", "bracket"])
+def test_neighbours_that_are_missing_are_filled(name):
+    """Between them there is no open edge that would tell where one ends."""
+    shape = PARTS[name]()
+    mesh, sides = without(shape, 0)
+    kept = mesh.triangle_face != 1
+    mesh = replace(mesh, triangles=mesh.triangles[kept], triangle_face=mesh.triangle_face[kept])
+    mesh.face_nodes[1] = np.zeros((0, 3))
+    mesh, filled, clean = fill(mesh, sides)
+    assert filled == [0, 1] and clean and not fault_of(mesh, sides)
+    volume = solid_volumes(mesh.points, mesh.triangles, sides[mesh.triangle_face], 1)[0]
+    assert volume == pytest.approx(shape.Volume, rel=0.02)
+
+
 def test_a_triangle_that_is_missing_is_filled():
     shape = PARTS["lofted"]()
     mesh, sides = without(shape, 0, slice(7, 8))
