@@ -17,7 +17,7 @@ import Part
 from .closed import side_triangles
 from .patch import FaceShape, bridged, least_cost, onto_surface, plane_triangles
 
-LONGEST = 600  # points of a loop
+LONGEST = 500  # points of all loops of a curved face
 
 
 def fill(mesh, sides):
@@ -30,16 +30,18 @@ def fill(mesh, sides):
     for face in np.flatnonzero(~present & sides.any(axis=1)).tolist():
         loops = outline(mesh, face)
         if loops:
+            count = len(mesh.triangles)
             mesh, flawless = with_face(mesh, face, loops, 1.0)
             clean &= flawless
-            filled.add(face)
+            filled |= {face} if len(mesh.triangles) > count else set()
     for solid in range(1, len(mesh.shape.Solids) + 1):
         loops = labelled_loops(mesh, sides, solid, beside)
         for face in sorted(loops):
             inward = sides[face, 1] == solid and sides[face, 0] != solid
+            count = len(mesh.triangles)
             mesh, flawless = with_face(mesh, face, loops[face], -1.0 if inward else 1.0)
             clean &= flawless
-            filled.add(face)
+            filled |= {face} if len(mesh.triangles) > count else set()
     return mesh, sorted(filled), clean
 
 
@@ -72,7 +74,7 @@ def outline(mesh, face):
     loops = []
     while following:
         loops.append(next_loop(following)[0])
-    return loops if all(3 <= len(loop) <= LONGEST for loop in loops) else []
+    return loops if all(len(loop) >= 3 for loop in loops) else []
 
 
 def faces_of_segments(mesh):
@@ -94,7 +96,7 @@ def labelled_loops(mesh, sides, solid, beside):
     while following:
         loop, labels = next_loop(following)
         votes = Counter(face for known in labels for face in sorted(known))
-        if 3 <= len(loop) <= LONGEST and votes:
+        if len(loop) >= 3 and votes:
             result.setdefault(votes.most_common(1)[0][0], []).append(loop)
     return result
 
@@ -150,6 +152,8 @@ def fill_face(mesh, face, loops, sign):
         if triangles is not None:
             return mesh.points, triangles, True
     loop = bridged(mesh.points, loops)
+    if len(loop) > LONGEST:
+        return mesh.points, np.zeros((0, 3), dtype=np.int64), False
     shape = FaceShape(mesh.faces[face], surface, sign)
     triangles = least_cost(mesh.points[loop], np.array([shape.normal(mesh.points[point]) for point in loop]))
     triangles = np.array(loop)[triangles]

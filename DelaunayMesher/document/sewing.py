@@ -82,10 +82,11 @@ def hollow(solid, cavities):
 def partners(shells, tolerance):
     """(lists of open shells that close together, number of faces of the others)."""
     free = [(number, edge) for number, shell in enumerate(shells) for edge in free_edges(shell)]
+    low, high = boxes_of([edge for _, edge in free], tolerance)
     group = np.arange(len(shells))
     alone = np.zeros(len(shells), dtype=bool)
-    for number, edge in free:
-        found = neighbours(edge, free, tolerance)
+    for place, (number, edge) in enumerate(free):
+        found = neighbours(place, free, low, high, tolerance) if edge.Length > tolerance else []
         alone[number] |= found is None
         for other in found or ():
             group[group == group[other]] = group[number]
@@ -110,23 +111,30 @@ def free_edges(shell):
     ]
 
 
-def neighbours(edge, free, tolerance):
+def boxes_of(edges, margin):
+    """(n, 3) lower and upper corners of the edges' boxes."""
+    boxes = [edge.BoundBox for edge in edges]
+    low = np.array([(box.XMin, box.YMin, box.ZMin) for box in boxes]).reshape(-1, 3)
+    high = np.array([(box.XMax, box.YMax, box.ZMax) for box in boxes]).reshape(-1, 3)
+    return low - margin, high + margin
+
+
+def neighbours(place, free, low, high, tolerance):
     """Numbers of the shells whose free edges cover an edge, or None where a point has no partner."""
-    if edge.Length <= tolerance:
-        return []
+    edge = free[place][1]
     first, last = edge.ParameterRange
     result = []
     for share in PROBES:
         point = edge.valueAt(first + share * (last - first))
-        found = [number for number, other in free if other is not edge and is_near(point, other, tolerance)]
+        near = ((low <= point) & (high >= point)).all(axis=1)
+        near[place] = False
+        vertex = Part.Vertex(point)
+        found = [
+            free[other][0]
+            for other in np.flatnonzero(near)
+            if free[other][1].distToShape(vertex)[0] <= tolerance
+        ]
         if not found:
             return None
         result += found
     return result
-
-
-def is_near(point, edge, tolerance):
-    """Whether a point lies on an edge."""
-    box = edge.BoundBox
-    box.enlarge(tolerance)
-    return box.isInside(point) and edge.distToShape(Part.Vertex(point))[0] <= tolerance

@@ -48,8 +48,9 @@ def join_edges(mesh, free, tolerance):
     """The Tessellation with the nodes of each free edge put into those it lies on."""
     root = np.arange(len(mesh.points))
     inserted = {}  # (lower point, higher point) -> {point: share of the way from the lower one}
+    nodes = np.unique(np.concatenate([*free.values()]))
     for edge, segments in free.items():
-        for point, (a, b), share in nodes_on(mesh, edge, segments, free, tolerance):
+        for point, (a, b), share in nodes_on(mesh, edge, segments, nodes, tolerance):
             length = np.linalg.norm(mesh.points[b] - mesh.points[a])
             near = min(tolerance, SHORTEST * length)
             ends = np.linalg.norm(mesh.points[[a, b]] - mesh.points[point], axis=1)
@@ -74,7 +75,7 @@ def join_edges(mesh, free, tolerance):
     )
 
 
-def nodes_on(mesh, edge, segments, free, tolerance):
+def nodes_on(mesh, edge, segments, nodes, tolerance):
     """(point, (a, b) the segment beside it, share of the way) of other edges' nodes on an edge."""
     shape = mesh.edges[edge]
     own = set(segments.reshape(-1).tolist())
@@ -83,22 +84,18 @@ def nodes_on(mesh, edge, segments, free, tolerance):
     squared = np.maximum((along**2).sum(axis=1), 1e-300)
     reach = tolerance + BULGE * np.sqrt(squared)
     low, high = np.minimum(a, b).min(axis=0) - reach.max(), np.maximum(a, b).max(axis=0) + reach.max()
-    for other, others in free.items():
-        if other == edge:
+    inside = ((mesh.points[nodes] >= low) & (mesh.points[nodes] <= high)).all(axis=1)
+    for point in nodes[inside].tolist():
+        if point in own:
             continue
-        nodes = np.unique(others)
-        inside = ((mesh.points[nodes] >= low) & (mesh.points[nodes] <= high)).all(axis=1)
-        for point in nodes[inside].tolist():
-            if point in own:
-                continue
-            offset = mesh.points[point] - a
-            share = np.clip((offset * along).sum(axis=1) / squared, 0.0, 1.0)
-            apart = np.linalg.norm(offset - share[:, None] * along, axis=1)
-            row = int(apart.argmin())
-            if apart[row] > reach[row]:
-                continue
-            if apart[row] <= tolerance or distance(shape, mesh.points[point]) <= tolerance:
-                yield point, tuple(segments[row].tolist()), float(share[row])
+        offset = mesh.points[point] - a
+        share = np.clip((offset * along).sum(axis=1) / squared, 0.0, 1.0)
+        apart = np.linalg.norm(offset - share[:, None] * along, axis=1)
+        row = int(apart.argmin())
+        if apart[row] > reach[row]:
+            continue
+        if apart[row] <= tolerance or distance(shape, mesh.points[point]) <= tolerance:
+            yield point, tuple(segments[row].tolist()), float(share[row])
 
 
 def distance(shape, point):
