@@ -130,6 +130,7 @@ SizeOptions read_size_options(const nb::dict& options) {
   size.growth = get<double>(options, "growth");
   size.elements_per_circle = get<double>(options, "elements_per_circle");
   size.elements_across = get<double>(options, "elements_across");
+  size.optimised = get<bool>(options, "optimise");
   size.face_size = get_values<double>(options, "face_size");
   size.edge_size = get_values<double>(options, "edge_size");
   size.vertex_size = get_values<double>(options, "vertex_size");

@@ -10,10 +10,10 @@ namespace dm {
 
 namespace {
 
-constexpr double kFree = 2.5, kTight = 1.85, kGap = 6;  // size per width; see the header
-constexpr double kTightWithin = 2;                      // the other side is tight up to this many widths
-constexpr double kOpposed = 0.966;                      // cosine between ray and normal: 15 degrees
-constexpr double kContact = 1e-6;  // of the diagonal: narrower than this, faces touch and there is no gap
+constexpr double kFree = 2.5, kFreeOptimised = 3, kTight = 1.85, kGap = 6;  // size per width; see the header
+constexpr double kTightWithin = 2;  // the other side is tight up to this many widths
+constexpr double kOpposed = 0.966;  // cosine between ray and normal: 15 degrees
+constexpr double kContact = 1e-6;   // of the diagonal: narrower than this, faces touch and there is no gap
 constexpr int kDeepestSplit = 20;
 constexpr std::int64_t kMostPlaces = 150'000;
 // Walls and gaps may cost this many times the elements of the rest, and this many in any case.
@@ -40,6 +40,7 @@ class Prober {
         geometry_(geometry),
         boundary_(boundary),
         shared_(plc),
+        free_(options.optimised ? kFreeOptimised : kFree),
         per_width_(2 / options.elements_across) {
     epsilon_ = kContact * norm(boundary.box().extent());
   }
@@ -129,7 +130,7 @@ class Prober {
       if (t == HUGE_VAL) continue;
       const bool wall = solids[side] > 0;
       const bool tight = behind <= kTightWithin * t || (wall && solids[1 - side] > 0);
-      const double h = (tight ? kTight : wall ? kFree : kGap) * t * per_width_;
+      const double h = (tight ? kTight : wall ? free_ : kGap) * t * per_width_;
       if (h < size) size = h, width_ = t, other_face_ = w[side].face, wall_ = wall;
     }
     return size;
@@ -188,7 +189,7 @@ class Prober {
   const Geometry& geometry_;
   const BoundaryTree& boundary_;
   SharedEdges shared_;
-  double per_width_, epsilon_ = 0, local_size_ = 0, width_ = 0;
+  double free_, per_width_, epsilon_ = 0, local_size_ = 0, width_ = 0;
   Index triangle_ = -1, face_ = -1, other_face_ = -1;
   Vec3 normal_;
   bool wall_ = false;

@@ -30,6 +30,7 @@ struct SizeOptions {
   double growth = 0.25;             // Lipschitz constant of h
   double elements_per_circle = 12;  // 0 = no curvature source
   double elements_across = 2;       // elements across walls and gaps; 0 = no proximity source
+  bool optimised = false;           // the mesh will be: walls need less small elements
   std::vector<double> face_size, edge_size, vertex_size, solid_size;  // mm; empty or infinity = none
   std::vector<SizeRegion> regions;
   std::vector<Vec3> points;  // sizes given on points (an error estimate, an earlier mesh)
