@@ -5,8 +5,8 @@
 
 #include "curves/sample_curves.h"
 #include "plc/plc.h"
+#include "plc/segment_table.h"
 #include "surfaces/face_patch.h"
-#include "surfaces/small_features.h"
 
 namespace dm {
 

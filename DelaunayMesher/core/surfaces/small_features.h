@@ -26,14 +26,4 @@ using SmallFeature = std::vector<std::pair<Index, Index>>;  // points that becom
 // tessellation inside a face left out near its curves.
 std::vector<SmallFeature> find_small_features(Plc& plc, const Geometry& geometry, const Tolerance& tolerance);
 
-// Segments by their ends.
-class SegmentTable {
- public:
-  explicit SegmentTable(const Plc& plc);
-  Index find(Index a, Index b) const;  // -1 = none
-
- private:
-  std::vector<std::array<Index, 3>> ends_;  // sorted: lower point, higher point, segment
-};
-
 }  // namespace dm

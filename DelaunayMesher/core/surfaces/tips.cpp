@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "plc/segment_table.h"
+
 namespace dm {
 namespace {
 
