@@ -130,6 +130,7 @@ class EditMesh {
   // Extreme angles of the tetrahedra that the trial has changed, before and now.
   const AngleCosines& trial_before() const { return trial_before_; }
   AngleCosines trial_now() const;
+  Index trial_worst() const;  // of them, -1 if none is left
 
  private:
   void build_vertex_tets();

@@ -47,6 +47,13 @@ AngleCosines EditMesh::trial_now() const {
   return all;
 }
 
+Index EditMesh::trial_worst() const {
+  Index worst = -1;
+  for (const Index t : touched_)
+    if (t < slot_count() && !removed(t) && (worst < 0 || bad_[t] > bad_[worst])) worst = t;
+  return worst;
+}
+
 void EditMesh::end_trial(bool keep) {
   in_trial_ = false;
   if (!keep) take_back();

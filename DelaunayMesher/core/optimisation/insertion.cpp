@@ -4,7 +4,7 @@ namespace dm {
 namespace {
 
 constexpr std::size_t kLargest = 30;  // tetrahedra of a cavity: their cone has fewer than kMaxReplace
-constexpr double kFlat = 0.664;       // badness at 4 and 175 degrees
+constexpr double kFlat = 0.6664;      // badness at 1 and 178 degrees
 constexpr int kSteps = 6;             // along the gradient, before the cavity is grown again
 constexpr double kSagitta = 1.2;      // new distance from the CAD face relative to the old one
 constexpr double kNormalTurn = 0.9;   // cosine of the largest angle between old and new normals

@@ -3,11 +3,13 @@
 namespace dm {
 namespace {
 
-constexpr double kGain = 1e-2;    // of the worst badness
-constexpr int kEdges = 2;         // that are contracted
-constexpr int kPasses = 3;        // of smoothing and flips
-constexpr double kBad = 0.5;      // elements worse than this are worked on
-constexpr Index kFailures = 500;  // that are allowed, and one for each hundred tetrahedra
+constexpr double kGain = 1e-2;     // of the worst badness
+constexpr int kEdges = 2;          // that are contracted
+constexpr int kSteps = 3;          // of a follow-up
+constexpr double kDeepAngle = 27;  // degrees: below it follow-ups are tried
+constexpr int kPasses = 3;         // of smoothing and flips
+constexpr double kBad = 0.5;       // elements worse than this are worked on
+constexpr Index kFailures = 500;   // that are allowed, and one for each hundred tetrahedra
 
 }  // namespace
 
@@ -53,18 +55,36 @@ void Rescuer::settle(Index v) {
   }
 }
 
-bool Rescuer::finish() {
+bool Rescuer::is_better() const {
   const AngleCosines before = mesh_.trial_before(), now = mesh_.trial_now();
-  const bool better = badness(now) < badness(before) - kGain && keeps_angles(before, now);
+  return badness(now) < badness(before) - kGain && keeps_angles(before, now);
+}
+
+// Points on the longest boundary edges of what is worst now: a strip or gap narrower than the elements beside
+// it needs several.
+void Rescuer::follow_up() {
+  for (int step = 0; step < kSteps && !is_better(); ++step) {
+    const Index worst = mesh_.trial_worst();
+    if (worst < 0) return;
+    int place = 1;
+    while (place <= kEdges && !inserter_.insert(worst, place)) ++place;
+    if (place > kEdges) return;
+    settle(mesh_.vertex_count() - 1);
+  }
+}
+
+bool Rescuer::finish() {
+  const bool better = is_better();
   mesh_.end_trial(better);
   return better;
 }
 
-bool Rescuer::insert(Index tet) {
+bool Rescuer::insert(Index tet, bool deep) {
   for (int place = 0; place < Inserter::kPlaces; ++place) {
     mesh_.begin_trial();
     const bool done = inserter_.insert(tet, place);
     if (done) settle(mesh_.vertex_count() - 1);
+    if (done && deep) follow_up();
     if (finish()) return true;
   }
   return false;
@@ -91,7 +111,8 @@ bool Rescuer::contract(Index tet) {
 bool Rescuer::rescue(Index tet) {
   failed_.resize(mesh_.slot_count(), 0);
   if (failures_left_ == 0 || failed_[tet] == mesh_.bad(tet) || is_fixed(tet)) return false;
-  if (insert(tet) || contract(tet)) return true;
+  if (insert(tet, false) || contract(tet)) return true;
+  if (mesh_.bad(tet) > badness_at(kDeepAngle) && insert(tet, true)) return true;
   failed_[tet] = mesh_.bad(tet);
   --failures_left_;
   return false;

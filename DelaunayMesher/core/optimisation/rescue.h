@@ -26,9 +26,11 @@ class Rescuer {
 
  private:
   bool is_fixed(Index tet);
-  bool insert(Index tet);
+  bool insert(Index tet, bool deep);
   bool contract(Index tet);
   void settle(Index v);
+  bool is_better() const;
+  void follow_up();
   bool finish();
 
   EditMesh& mesh_;
