@@ -191,6 +191,19 @@ bool Inserter::is_sound() const {
   return true;
 }
 
+// A point that the cone does not keep goes with all its tetrahedra, and is no point of a CAD edge.
+bool Inserter::drops_whole_points() {
+  for (const Index t : cavity_)
+    for (const Index v : mesh_.tet(t)) {
+      if (std::any_of(faces_.begin(), faces_.end(), [&](const Face& f) { return contains(f.corners, v); }))
+        continue;
+      if (mesh_.entity(v).dimension < 2 || mesh_.pinched(v)) return false;
+      for (const Index around : mesh_.star(v))
+        if (!in_cavity(around)) return false;
+    }
+  return true;
+}
+
 void Inserter::commit() {
   const Index v = mesh_.add_point(place_, entity_, on_faces_);
   std::vector<Tet> cone;
@@ -224,7 +237,8 @@ bool Inserter::work_out() {
     if (faces_.size() > Fan::kCapacity / 2) return false;
     settle();
   }
-  if (!is_valid() || !build_triangles() || !is_sound() || !keeps_surface()) return false;
+  if (!is_valid() || !build_triangles() || !is_sound() || !drops_whole_points() || !keeps_surface())
+    return false;
   commit();
   return true;
 }

@@ -50,6 +50,7 @@ class Inserter {
   bool keeps_surface() const;
   bool keeps_surface(Index face) const;
   bool is_sound() const;
+  bool drops_whole_points();
   bool is_rim(Index a, Index b) const;
   void commit();
 

@@ -18,7 +18,7 @@ constexpr int kMostSweeps = 5;       // while the mean is below
 constexpr double kMeanAngle = 51;    // degrees
 constexpr double kSharpFlip = 35;    // degrees: elements below it are tried in the first round of cheap flips
 constexpr double kMeanFlip = 43;     // in the others
-constexpr int kWorstRounds = 12;     // over the elements below the target
+constexpr int kWorstRounds = 8;      // over the elements below the target
 constexpr double kRounding = 1e-3;   // of a badness in single precision
 constexpr std::size_t kPiece = 256;  // elements that one thread takes at a time
 

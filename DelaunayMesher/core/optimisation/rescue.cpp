@@ -9,7 +9,7 @@ constexpr int kSteps = 3;          // of a follow-up
 constexpr double kDeepAngle = 27;  // degrees: below it follow-ups are tried
 constexpr int kPasses = 3;         // of smoothing and flips
 constexpr double kBad = 0.5;       // elements worse than this are worked on
-constexpr Index kFailures = 500;   // that are allowed, and one for each hundred tetrahedra
+constexpr Index kTries = 1000;     // elements that are tried, and one for each hundred tetrahedra
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Rescuer::Rescuer(EditMesh& mesh, Smoother& smoother, Flipper& flipper, Contracto
       contractor_(contractor),
       inserter_(mesh, smoother, geometry),
       geometry_(geometry),
-      failures_left_(kFailures + mesh.slot_count() / 100) {}
+      tries_left_(kTries + mesh.slot_count() / 100) {}
 
 // Is the smallest angle one between two CAD faces, which no change of the mesh opens?
 bool Rescuer::is_fixed(Index tet) {
@@ -110,11 +110,11 @@ bool Rescuer::contract(Index tet) {
 
 bool Rescuer::rescue(Index tet) {
   failed_.resize(mesh_.slot_count(), 0);
-  if (failures_left_ == 0 || failed_[tet] == mesh_.bad(tet) || is_fixed(tet)) return false;
+  if (tries_left_ == 0 || failed_[tet] == mesh_.bad(tet) || is_fixed(tet)) return false;
+  --tries_left_;
   if (insert(tet, false) || contract(tet)) return true;
   if (mesh_.bad(tet) > badness_at(kDeepAngle) && insert(tet, true)) return true;
   failed_[tet] = mesh_.bad(tet);
-  --failures_left_;
   return false;
 }
 

@@ -5,8 +5,9 @@
 // edge is contracted (collapse.h).  Klingner and Shewchuk (2007): most insertions pay only after the
 // neighbourhood has settled.
 // Guard: the worst badness falls and keeps_angles() holds over all tetrahedra that were changed.
-// Cost: about 0.5 ms for an element that cannot be helped; their number is bounded.  Known limit: one change
-// at a time, so a strip of the boundary far narrower than its elements stays.
+// Where one point is not enough, up to three more follow on the longest boundary edges of what is worst then.
+// Cost: 0.5 to 1 ms for an element; their number is bounded.  Known limit: a strip of the boundary ten times
+// narrower than its elements stays.
 #pragma once
 
 #include "optimisation/collapse.h"
@@ -39,7 +40,7 @@ class Rescuer {
   Contractor& contractor_;
   Inserter inserter_;
   const Geometry& geometry_;
-  Index failures_left_;
+  Index tries_left_;
   std::vector<double> failed_;  // per tetrahedron, its badness when nothing helped
   std::vector<Index> tets_, points_;
 };

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "optimisation/check_mesh.h"
 #include "optimisation/quality.h"
@@ -157,10 +159,14 @@ TEST_CASE("the number of threads changes no byte") {
 TEST_CASE("it can be cancelled while several threads work") {
   auto s = sample::box(12, 0.25, 4);
   int calls = 0;
-  Context context(
-      [&](const char* stage, double) { return std::strcmp(stage, "optimisation") != 0 || ++calls < 3; });
+  Context context([&](const char* stage, double) {
+    if (std::strcmp(stage, "optimisation") != 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(40));  // the next poll is a report again
+    return ++calls < 2;
+  });
   context.threads = 2;
   CHECK_THROWS_AS(run(s, context), Cancelled);
+  CHECK(calls == 2);
 }
 
 TEST_CASE("it can be cancelled") {
