@@ -1,10 +1,9 @@
 #include "kernel/part_insertion.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <numeric>
-#include <thread>
+
+#include "base/parallel.h"
 
 namespace dm {
 namespace {
@@ -87,22 +86,8 @@ std::vector<PartInsertion::Task> PartInsertion::make_tasks(const std::vector<Ind
 }
 
 void PartInsertion::run(std::vector<Task>& tasks) {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> errors(tasks.size());
-  const auto work = [&] {
-    for (std::size_t k; (k = next++) < tasks.size();) try {
-        run(tasks[k]);
-      } catch (...) {
-        errors[k] = std::current_exception();
-      }
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < std::min<int>(threads_, static_cast<int>(tasks.size())); ++i)
-    helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
+  for_all(threads_, static_cast<int>(tasks.size()),
+          [&](int, int k, const std::atomic<bool>&) { run(tasks[k]); });
 }
 
 void PartInsertion::run(Task& task) {

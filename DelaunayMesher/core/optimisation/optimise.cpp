@@ -2,9 +2,9 @@
 
 #include <numeric>
 
+#include "base/parallel.h"
 #include "optimisation/collapse.h"
 #include "optimisation/flips.h"
-#include "optimisation/parallel.h"
 #include "optimisation/rescue.h"
 #include "optimisation/smoothing.h"
 #include "optimisation/spatial_order.h"

@@ -1,11 +1,9 @@
 #include "surfaces/remesh.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <thread>
 #include <tuple>
 
+#include "base/parallel.h"
 #include "curves/curve_changes.h"
 #include "curves/sample_curves.h"
 #include "surfaces/crossings.h"
@@ -171,27 +169,12 @@ class SurfaceMesher {
   void remesh_faces() {
     const PatchSource source(plc_, curves_);
     const Index n = face_count();
-    std::vector<std::exception_ptr> errors(n);
-    std::atomic<Index> next{0};
-    std::atomic<bool> stop{false};
+    std::atomic<Index> finished{0};
     std::atomic<double> done{0};
-    auto work = [&](Context* context) {
-      for (Index f = next++; f < n && !stop; f = next++) {
-        try {
-          if (redo_[f]) remesh_face(source, f, {context, &stop, &done});
-        } catch (...) {
-          errors[f] = std::current_exception();
-          stop = true;
-        }
-        done = static_cast<double>(std::min(next.load(), n)) / n;
-      }
-    };
-    std::vector<std::thread> threads;
-    for (int i = 1; i < context_.threads; ++i) threads.emplace_back(work, nullptr);
-    work(&context_);
-    for (std::thread& t : threads) t.join();
-    for (const std::exception_ptr& error : errors)
-      if (error) std::rethrow_exception(error);
+    for_all(context_.threads, n, [&](int thread, Index f, const std::atomic<bool>& stop) {
+      if (redo_[f]) remesh_face(source, f, {thread == 0 ? &context_ : nullptr, &stop, &done});
+      done = static_cast<double>(++finished) / n;
+    });
     redo_.assign(n, 0);
   }
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "optimisation/parallel.h"
+#include "base/parallel.h"
 #include "optimisation/spatial_order.h"
 #include "sample_meshes.h"
 
