@@ -3,8 +3,8 @@
 // The size field knows nothing of what goes wrong when its sizes are laid on the surface: a strip narrower
 // than its triangles, a bend that they cut off.  Such places become caps: a length wanted at a point, growing
 // from there at a fixed rate.  Where CAD curves lie off their faces, triangles as small as the gap would turn
-// over: such places become floors, which win over caps.  Cost of at(): the size field's, plus a walk in a box
-// tree when there are caps.
+// over: such places become floors, which win over caps.  Cost of at(): the size field's, plus a walk in a
+// tree of the places when there are any, pruned by the least length below a node.
 #pragma once
 
 #include <vector>
@@ -24,30 +24,32 @@ class LengthField {
   // Asks for `length` at p; no effect where it is not wanted shorter.  Takes effect with apply_caps().
   void add_cap(const Vec3& p, double length);
   // Asks for no less than `length` at p.  Takes effect with apply_caps().
-  void add_floor(const Vec3& p, double length) { floors_.add(p, length, kFloorReach * length); }
+  void add_floor(const Vec3& p, double length) { floors_.add(p, -length); }
   // Rebuilds the trees.  Returns the boxes in which lengths may have changed.
   std::vector<Box> apply_caps();
 
  private:
   static constexpr double kGrowth = 0.5;  // with distance: steeper than the size field's, to save elements
-  static constexpr double kFloorReach = 1 / kGrowth;
 
-  // Lengths at points, each felt within a reach.
-  struct Places {
-    std::vector<Vec3> points;
-    std::vector<double> lengths;
-    std::vector<Box> boxes;
-    BoxTree tree;
-    void add(const Vec3& p, double length, double reach);
-    // Calls f(length, distance) for every place that p may be in reach of.
-    template <class F>
-    void for_each_near(const Vec3& p, F f) const;
+  // Values at points, each growing with distance.
+  class Places {
+   public:
+    void add(const Vec3& p, double value);
+    void build();
+    // The lowest of all values at p, or `most` if that is lower.
+    double lowest(const Vec3& p, double most) const;
+
+   private:
+    std::vector<Vec3> points_;
+    std::vector<double> values_;
+    BoxTree tree_;               // of the points
+    std::vector<double> least_;  // value below each of its nodes
   };
 
   const SizeField& size_;
   double edge_ratio_;
-  Places caps_, floors_;
-  std::size_t applied_ = 0;
+  Places caps_, floors_;    // floors with the opposite sign
+  std::vector<Box> reach_;  // of caps that are not applied yet
 };
 
 }  // namespace dm

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kNear = 256;  // tetrahedra looked at by conflict_near
 
-// After so many tetrahedra in cavities that were none (some seconds), only small ones are tried: where the
-// boundary crosses itself there may be no end of large ones.
+// After so many looks at tetrahedra of cavities that were none (some seconds), only small ones are tried:
+// where the boundary crosses itself there may be no end of large ones.
 constexpr std::size_t kPatience = 20'000'000, kSmall = 200;
 
 bool sees(const Triangulation& tets, const Vec3& p, Face f) {
@@ -37,8 +37,9 @@ bool is_ball(const Triangulation& tets, const Cavity& cavity) {
 }
 
 bool ConstrainedSearch::find_cavity(const Vec3& p, Index start, Cavity& cavity) {
+  const std::size_t before = wasted_;
   const bool found = search(p, start, cavity);
-  if (!found) wasted_ += cavity.tets.size();
+  if (found) wasted_ = before;
   return found;
 }
 
@@ -48,7 +49,7 @@ bool ConstrainedSearch::search(const Vec3& p, Index start, Cavity& cavity) {
   cavity.tets.clear();
   if (!tets_.in_conflict(start, p) || !collect(p, start, cavity)) return false;
   while (drop_unseen(p, cavity)) {
-    if (!is_inside(start)) return false;
+    if (!is_inside(start) || (wasted_ >= kPatience && cavity.tets.size() > kSmall)) return false;
     keep_connected(start, cavity);
   }
   return collect_border(cavity) && is_ball(tets_, cavity);
@@ -62,6 +63,7 @@ bool ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
   stamp_[start] = 2 * epoch_ + 1;
   for (std::size_t k = 0; k < cavity.tets.size(); ++k) {
     if (cavity.tets.size() > most) return false;
+    ++wasted_;
     const Index t = cavity.tets[k];
     for (int i = 0; i < 4; ++i) {
       const Index n = tets_.neighbour(t, i) / 4;
@@ -77,6 +79,7 @@ bool ConstrainedSearch::collect(const Vec3& p, Index start, Cavity& cavity) {
 // Takes tetrahedra with a border face that p does not see out of the cavity; false when there is none.
 bool ConstrainedSearch::drop_unseen(const Vec3& p, Cavity& cavity) {
   bool dropped = false;
+  wasted_ += cavity.tets.size();
   for (const Index t : cavity.tets)
     for (int i = 0; i < 4 && is_inside(t); ++i) {
       const bool border = tets_.marked(t, i) || !is_inside(tets_.neighbour(t, i) / 4);
