@@ -6,6 +6,8 @@ namespace dm {
 
 namespace {
 
+constexpr double kFlat = -0.87;  // cosine of the angle at which a site may see a segment: 150 degrees
+
 bool contains(const std::vector<Index>& list, Index t) {
   return std::find(list.begin(), list.end(), t) != list.end();
 }
@@ -33,6 +35,12 @@ SiteVerdict BoundarySite::propose(const Vec3& p, Index hint, Index t, Index a, I
   if (!collect_ring() || !ring_separates_regions()) return SiteVerdict::not_a_disc;
   sharpness_ = evaluate_site(mesh_, cavity_, p, bound_, target_, kRejected);
   return sharpness_ < kRejected ? SiteVerdict::ok : SiteVerdict::not_a_disc;
+}
+
+// Would the site make a triangle so flat on the segment that no tetrahedron on it is any good?
+bool BoundarySite::is_flat_on(Index u, Index w) const {
+  const Vec3 a = mesh_.tets.point(u) - site_, b = mesh_.tets.point(w) - site_;
+  return dot(a, b) < kFlat * std::sqrt(norm2(a) * norm2(b));
 }
 
 // The labelled triangles inside the cavity, and those of them that hang together with t (or the segment's
@@ -70,7 +78,8 @@ bool BoundarySite::collect_patch(Index t, Index a, Index b) {
       if (is_own_segment(u, w)) continue;
       const int n = complex.triangles_at(u, w, fan);
       if (complex.is_segment(u, w)) {
-        if (std::all_of(fan.begin(), fan.begin() + n, [&](Index s) { return swallowed(s); }))
+        if (is_flat_on(u, w) ||
+            std::all_of(fan.begin(), fan.begin() + n, [&](Index s) { return swallowed(s); }))
           segment_ = {u, w};
         continue;
       }

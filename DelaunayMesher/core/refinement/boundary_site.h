@@ -36,6 +36,7 @@ class BoundarySite {
   bool collect_ring();
   bool ring_separates_regions();
   bool swallowed(Index t) const;
+  bool is_flat_on(Index u, Index w) const;
   bool is_own_segment(Index a, Index b) const;
 
   LabelledTriangulation& mesh_;

@@ -202,8 +202,8 @@ class Refinement {
     if (big) insert_inside(tet, sphere, big, true);
   }
 
-  // Tries random sites round the circumcentre.  False when the boundary is in the way; `constrained` sites
-  // keep to this side of it.
+  // Tries random sites round the circumcentre.  False when the boundary is in the way, or a sliver has no room
+  // for a site; `constrained` sites keep to this side of it.
   bool insert_inside(Index tet, const Sphere& sphere, bool big, bool constrained) {
     const std::uint16_t tag = tets_.tag(tet);
     const double radius = std::sqrt(sphere.radius2);
@@ -235,7 +235,7 @@ class Refinement {
       if (s <= target_) return commit_inside(site, constrained_), true;
       if (s < best) best = s, best_site = site, best_constrained = constrained_;
     }
-    if (refused && !constrained && best > target_) return false;
+    if (!constrained && (refused || !big)) return false;
     if (big && best < kRejected) relax(tet, best_site, best_constrained);
     return true;
   }
