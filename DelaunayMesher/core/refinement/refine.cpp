@@ -202,8 +202,8 @@ class Refinement {
     if (big) insert_inside(tet, sphere, big, true);
   }
 
-  // Tries random sites round the circumcentre.  False when the boundary is in the way, or a sliver has no room
-  // for a site; `constrained` sites keep to this side of it.
+  // Tries random sites round the circumcentre.  False when the boundary is in the way, or a sliver has no
+  // room for a site; `constrained` sites keep to this side of it.
   bool insert_inside(Index tet, const Sphere& sphere, bool big, bool constrained) {
     const std::uint16_t tag = tets_.tag(tet);
     const double radius = std::sqrt(sphere.radius2);
