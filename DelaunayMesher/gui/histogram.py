@@ -2,7 +2,7 @@
 
 from PySide import QtCore, QtGui
 
-from .colours import colour_of
+from .colours import colour_of, quality_scale
 from .texts import tr
 
 BARS = 36
@@ -47,6 +47,7 @@ class Histogram(QtGui.QWidget):
 
     def paint_bars(self, painter):
         area, most = self.plot(), max(max(self.counts), 1)
+        scale = quality_scale()
         width = area.width() / float(BARS)
         painter.setPen(QtCore.Qt.NoPen)
         for bar, count in enumerate(self.counts):
@@ -55,7 +56,7 @@ class Histogram(QtGui.QWidget):
                 height = max(height, 2.0)  # a single bad element must be seen
             middle = (bar + 0.5) / BARS
             value = self.measure.low + middle * (self.measure.high - self.measure.low)
-            painter.setBrush(QtGui.QColor.fromRgbF(*colour_of(self.measure.goodness(value))))
+            painter.setBrush(QtGui.QColor.fromRgbF(*colour_of(self.measure.goodness(value), scale)))
             painter.drawRect(
                 QtCore.QRectF(area.left() + bar * width + 0.5, area.bottom() - height, width - 1, height)
             )

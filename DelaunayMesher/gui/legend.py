@@ -2,7 +2,7 @@
 
 from PySide import QtCore, QtGui
 
-from .colours import SIZES, colour_of
+from .colours import size_scale
 
 HEIGHT = 12
 
@@ -38,7 +38,7 @@ class Strip(QtGui.QWidget):
     def paintEvent(self, event):
         painter = QtGui.QPainter(self)
         gradient = QtGui.QLinearGradient(0, 0, self.width(), 0)
-        for place, _ in SIZES:
-            gradient.setColorAt(place, QtGui.QColor.fromRgbF(*colour_of(place, SIZES)))
+        for place, colour in size_scale():
+            gradient.setColorAt(place, QtGui.QColor.fromRgbF(*colour))
         painter.fillRect(QtCore.QRect(0, 0, self.width(), HEIGHT), gradient)
         painter.end()

@@ -4,9 +4,8 @@ import FreeCADGui
 import numpy as np
 from pivy import coin
 
-from .colours import QUALITY, palette
+from .colours import palette, quality_scale, stored_colour
 
-CHOSEN = (0.85, 0.0, 0.45)
 COLOURS = 64
 
 
@@ -25,13 +24,13 @@ class Overlay:
     def remove(self):
         self.view.getSceneGraph().removeChild(self.root)
 
-    def show_surface(self, points, faces, shares, stops=QUALITY, with_edges=True):
-        """Faces (f, 3) coloured by shares (f,) in 0..1."""
+    def show_surface(self, points, faces, shares, stops=None, with_edges=True):
+        """Faces (f, 3) coloured by shares (f,) in 0..1, as quality unless `stops` says otherwise."""
         self.surface.removeAllChildren()
         if not len(faces):
             return
         colours = coin.SoMaterial()
-        colours.diffuseColor.setValues(0, COLOURS, palette(COLOURS, stops))
+        colours.diffuseColor.setValues(0, COLOURS, palette(COLOURS, stops or quality_scale()))
         binding = coin.SoMaterialBinding()
         binding.value = coin.SoMaterialBinding.PER_FACE_INDEXED
         used, compact = np.unique(faces, return_inverse=True)
@@ -53,12 +52,12 @@ class Overlay:
             return
         faces = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
         material = coin.SoMaterial()
-        material.diffuseColor = CHOSEN
+        material.diffuseColor = colour = stored_colour("ColourChosen")
         material.transparency = 0.5
         shape = coin.SoIndexedFaceSet()
         rows = with_ends(faces)
         shape.coordIndex.setValues(0, len(rows), rows)
-        for node in (coordinates(corners), material, shape, edges(faces, CHOSEN, 3)):
+        for node in (coordinates(corners), material, shape, edges(faces, colour, 3)):
             self.chosen.addChild(node)
 
     def zoom(self, centre, size):

@@ -1,4 +1,4 @@
-"""What new meshes start with: the user's preferences, or the table's defaults.
+"""What new meshes start with and the colours: the user's preferences, or the defaults.
 
 Only what FreeCAD's start needs is imported at the top.
 """
@@ -84,12 +84,43 @@ class PreferencesPage:
             field.add_to(grid, row)
         grid.setColumnStretch(1, 1)
         outer.addWidget(box)
+        outer.addWidget(self._colour_box())
         outer.addStretch(1)
 
+    def _colour_box(self):
+        import FreeCADGui
+        from PySide import QtGui
+
+        from .texts import tr
+
+        box = QtGui.QGroupBox(tr("Colours"))
+        form = QtGui.QFormLayout(box)
+        labels = {
+            "ColourBad": tr("Bad elements"),
+            "ColourGood": tr("Good elements"),
+            "ColourSmall": tr("Small sizes"),
+            "ColourLarge": tr("Large sizes"),
+            "ColourChosen": tr("Chosen element"),
+        }
+        self.colours = {name: FreeCADGui.UiLoader().createWidget("Gui::ColorButton") for name in labels}
+        for name, text in labels.items():
+            form.addRow(text + ":", self.colours[name])
+        return box
+
     def loadSettings(self):
+        from PySide import QtGui
+
+        from .colours import stored_colour
+
         for field in self.fields:
             field.set(stored_value(field.option))
+        for name, button in self.colours.items():
+            button.setProperty("color", QtGui.QColor.fromRgbF(*stored_colour(name)))
 
     def saveSettings(self):
+        from .colours import store_colour
+
         for field in self.fields:
             store_value(field.option, field.value())
+        for name, button in self.colours.items():
+            store_colour(name, button.property("color").getRgbF()[:3])

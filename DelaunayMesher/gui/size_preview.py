@@ -10,7 +10,7 @@ from ..document import mesh_object
 from ..document import preview as computation
 from ..document.estimate import two_digits
 from ..errors import MeshError
-from .colours import SIZES
+from .colours import size_scale
 from .mesh_job import remember
 from .overlay import Overlay
 from .run_box import number
@@ -95,7 +95,9 @@ class SizePreview:
             shares[:] = 1.0
         self.overlay = Overlay(self.target.Document)
         faces = preview.triangles
-        self.overlay.show_surface(preview.points, faces, shares[faces].mean(axis=1), SIZES, with_edges=False)
+        self.overlay.show_surface(
+            preview.points, faces, shares[faces].mean(axis=1), size_scale(), with_edges=False
+        )
         for item in (self.target, self.target.Shape):
             if item.ViewObject.Visibility:
                 self.hidden.append(item)

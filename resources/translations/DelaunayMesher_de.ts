@@ -216,6 +216,30 @@
       <translation>Vorgaben für neue Netze</translation>
     </message>
     <message>
+      <source>Colours</source>
+      <translation>Farben</translation>
+    </message>
+    <message>
+      <source>Bad elements</source>
+      <translation>Schlechte Elemente</translation>
+    </message>
+    <message>
+      <source>Good elements</source>
+      <translation>Gute Elemente</translation>
+    </message>
+    <message>
+      <source>Small sizes</source>
+      <translation>Kleine Elementgrößen</translation>
+    </message>
+    <message>
+      <source>Large sizes</source>
+      <translation>Große Elementgrößen</translation>
+    </message>
+    <message>
+      <source>Chosen element</source>
+      <translation>Gewähltes Element</translation>
+    </message>
+    <message>
       <source>Size region</source>
       <translation>Größenbereich</translation>
     </message>

@@ -4,6 +4,7 @@ import drive
 import FreeCAD
 import FreeCADGui
 from drive import say, wait, wait_until
+from PySide import QtGui
 
 
 def open_bracket():
@@ -51,6 +52,7 @@ def expression(panel):
 
 def preferences(part):
     """What is set there is what new meshes start with."""
+    from DelaunayMesher.gui import colours
     from DelaunayMesher.gui.preferences import PreferencesPage
 
     page = PreferencesPage()
@@ -59,7 +61,11 @@ def preferences(part):
     assert fields["order"].value() == 2
     fields["order"].set(1)
     fields["growth"].set(0.5)
+    chosen = QtGui.QColor(10, 20, 30)
+    page.colours["ColourBad"].setProperty("color", chosen)
     page.saveSettings()
+    assert colours.quality_scale()[0][1] == chosen.getRgbF()[:3] and len(colours.quality_scale()) == 2
+    assert colours.size_scale() == colours.SIZES
     target = drive.open_panel(part).target
     assert target.ElementOrder == "1st" and abs(target.Growth - 0.5) < 1e-9
     drive.panel().reject()
@@ -68,7 +74,11 @@ def preferences(part):
     assert fields["order"].value() == 1
     fields["order"].set(2)
     fields["growth"].set(0.25)
+    assert page.colours["ColourBad"].property("color") == chosen
+    default = QtGui.QColor.fromRgbF(*colours.DEFAULTS["ColourBad"])
+    page.colours["ColourBad"].setProperty("color", default)
     page.saveSettings()
+    assert colours.quality_scale() == colours.QUALITY
 
 
 def body_with_box():
