@@ -64,7 +64,8 @@ def preferences(part):
     chosen = QtGui.QColor(10, 20, 30)
     page.colours["ColourBad"].setProperty("color", chosen)
     page.saveSettings()
-    assert colours.quality_scale()[0][1] == chosen.getRgbF()[:3] and len(colours.quality_scale()) == 2
+    scale = colours.quality_scale()
+    assert colours.packed(scale[0][1]) == 10 << 24 | 20 << 16 | 30 << 8 | 255 and len(scale) == 2
     assert colours.size_scale() == colours.SIZES
     target = drive.open_panel(part).target
     assert target.ElementOrder == "1st" and abs(target.Growth - 0.5) < 1e-9
