@@ -21,10 +21,7 @@ from .tessellation import face_sides, tessellate
 LINEAR_SHARE = 0.02  # of the element size
 WALL_SHARE = 0.1  # of the thickness of the thinnest solid
 SMALLEST_SHARE = 0.08  # of the smallest size that the user gives anywhere
-COARSEST, FINEST = (
-    1.0 / 1250.0,
-    1.0 / 3000.0,
-)  # linear deflection as shares of the diagonal; OCC is slow below
+COARSEST, FINEST = 1.0 / 1250.0, 1.0 / 3000.0  # linear deflection over the diagonal; OCC is slow below
 ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
 FLAT = 1e-14  # volume over the diagonal's cube: none but rounding
 # Tried in turn until the triangles close: (factor on the linear, factor on the angular deflection).

@@ -6,7 +6,7 @@
 // neighbourhood has settled.
 // Guard: the worst badness falls and keeps_angles() holds over all tetrahedra that were changed.
 // Where one point is not enough, up to three more follow on the longest boundary edges of what is worst then.
-// Cost: 0.5 to 1 ms for an element; their number is bounded.  Known limit: a strip of the boundary ten times
+// Cost: 1 to 2.5 ms for an element; their number is bounded.  Known limit: a strip of the boundary ten times
 // narrower than its elements stays.
 #pragma once
 

@@ -3,8 +3,7 @@
 namespace dm {
 namespace {
 
-constexpr double kBoundaryEdge = 0.8;  // of the surface mesh, over h
-constexpr double kMuchFiner = 0.5;     // edges over those that the size field asks for
+constexpr double kMuchFiner = 0.5;  // edges over those that the size field asks for
 
 }  // namespace
 

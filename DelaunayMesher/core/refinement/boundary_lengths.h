@@ -12,7 +12,7 @@
 
 namespace dm {
 
-// In terms of the size field's h: the boundary has edges of kBoundaryEdge * h.
+// In terms of the size field's h, not of the edges of the surface mesh (kBoundaryEdge).
 LengthField lengths_inside(const LabelledTriangulation& mesh, const SizeField& size);
 
 }  // namespace dm

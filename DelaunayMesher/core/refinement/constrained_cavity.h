@@ -28,7 +28,7 @@ class ConstrainedSearch {
   const Triangulation& tets_;
   std::vector<std::uint32_t> stamp_;  // per slot: 2 * epoch_ = seen, + 1 = in conflict
   std::uint32_t epoch_ = 0;
-  std::size_t wasted_ = 0;  // tetrahedra in cavities that were no balls
+  std::size_t wasted_ = 0;  // looks at tetrahedra of cavities that were no balls
 };
 
 // Is the cavity a topological ball without inner vertices?  Always so in a Delaunay triangulation.

@@ -74,7 +74,7 @@ class Refinement {
 
  private:
   bool is_inside(Index tet) const { return !tets_.is_free(tet) && tets_.tag(tet) != 0; }
-  double edge_size(const Vec3& p) const { return 0.8 * lengths_.at(p); }
+  double edge_size(const Vec3& p) const { return kBoundaryEdge * lengths_.at(p); }
 
   Sphere sphere_of(Index tet) const {
     const auto [a, b, c, d] = tets_.corners(tet);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sizing/size_field.h"
 #include "sizing/sources.h"
 
 namespace dm {
@@ -8,7 +9,6 @@ namespace dm {
 namespace {
 
 constexpr int kDeepestSplit = 6;
-constexpr double kBoundaryEdge = 0.8;           // length of boundary edges over the size
 constexpr double kFlat = 0.002, kCrease = 1.0;  // radians between facets that count as a curve
 constexpr double kSimilar = 1.25;               // sizes within this ratio need no further split of a triangle
 

@@ -24,6 +24,8 @@ struct SizeRegion {
   double radius = 0, size = 0, transition = 0;
 };
 
+inline constexpr double kBoundaryEdge = 0.8;  // length of edges of the surface mesh, over h
+
 struct SizeOptions {
   double max_size = 0;              // mm, > 0
   double min_size = 0;              // mm, the floor; 0 = automatic (max_size / 1000)

@@ -7,9 +7,9 @@
 
 namespace dm {
 
-// Edge length aimed at on the boundary is `edge_ratio` * h; 0.8 serves the volume's angles best.
+// Edge length aimed at on the boundary is `edge_ratio` * h; the default serves the volume's angles best.
 struct SurfaceOptions {
-  double edge_ratio = 0.8;
+  double edge_ratio = kBoundaryEdge;
   // random displacement of points, relative to the edge length: exact patterns make slivers
   double jitter = 0.1;
 };
