@@ -17,86 +17,24 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path[:0] = [ROOT, os.path.join(ROOT, "tests", "document")]
-PER_CIRCLE = 12
-OURS, PLAIN, HXT, NETGEN = "ours", "ours, not optimised", "Gmsh HXT", "Netgen"
+from meshers import HXT, NETGEN, OURS, PLAIN, ROOT, run
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "document"))
 FIRST_GUESS = {HXT: 0.82, NETGEN: 0.75}  # size setting over ours
-
-
-def run_ours(path, size, optimise):
-    """(points, tets, wall seconds, processor seconds)"""
-    import DelaunayMesher
-    from DelaunayMesher import document, extension
-
-    shape = document.read_shape(path)
-    extension.load()
-    options = document.make_options(
-        max_size=size, elements_per_circle=PER_CIRCLE, threads=1, optimise=optimise
-    )
-    start = time.perf_counter(), time.process_time()
-    mesh = DelaunayMesher.mesh(shape, options)
-    return mesh.points, mesh.tets, time.perf_counter() - start[0], time.process_time() - start[1]
-
-
-def run_hxt(path, size):
-    """The same of Gmsh with its HXT algorithm and the same size settings."""
-    import gmsh
-    import numpy as np
-
-    gmsh.initialize()
-    settings = {
-        "General.Terminal": 0,
-        "General.NumThreads": 1,
-        "Mesh.MeshSizeMax": size,
-        "Mesh.MeshSizeFromCurvature": PER_CIRCLE,
-        "Mesh.Algorithm3D": 10,
-    }
-    for name, value in settings.items():
-        gmsh.option.setNumber(name, value)
-    gmsh.model.occ.importShapes(path)
-    gmsh.model.occ.synchronize()
-    start = time.perf_counter(), time.process_time()
-    gmsh.model.mesh.generate(3)
-    wall, processor = time.perf_counter() - start[0], time.process_time() - start[1]
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    index = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-    index[tags.astype(np.int64)] = np.arange(len(tags))
-    tets = index[gmsh.model.mesh.getElementsByType(4)[1].astype(np.int64)].reshape(-1, 4)
-    return coordinates.reshape(-1, 3), tets, wall, processor
-
-
-def run_netgen(path, size):
-    """The same of Netgen: largest size and elements per radian, all else as Netgen has it."""
-    import math
-
-    import numpy as np
-    from netgen.occ import OCCGeometry
-
-    geometry = OCCGeometry(path)
-    start = time.perf_counter(), time.process_time()
-    mesh = geometry.GenerateMesh(maxh=size, curvaturesafety=PER_CIRCLE / (2 * math.pi))
-    wall, processor = time.perf_counter() - start[0], time.process_time() - start[1]
-    points = np.array([point.p for point in mesh.Points()])
-    tets = np.array([[vertex.nr - 1 for vertex in element.points] for element in mesh.Elements3D()])
-    return points, tets[:, [1, 0, 2, 3]], wall, processor  # its tetrahedra are mirrored
 
 
 def run_one(mesher, path, size):
     """Runs one mesher in this process and prints one line of JSON."""
     from DelaunayMesher import quality
 
-    rivals = {HXT: run_hxt, NETGEN: run_netgen}
-    run = rivals[mesher](path, size) if mesher in rivals else run_ours(path, size, mesher == OURS)
-    points, tets, wall, processor = run
-    angles = quality.dihedral_angles(points, tets)
+    made = run(mesher, path, size)
+    angles = quality.dihedral_angles(made.points, made.tets)
     least = angles.min(axis=1)
     row = {
-        "tets": len(tets),
-        "wall": wall,
-        "processor": processor,
+        "tets": len(made.tets),
+        "wall": made.wall,
+        "processor": made.processor,
         "smallest": float(least.min()),
         "largest": float(angles.max()),
         "below 30": 100 * float((least < 30).mean()),

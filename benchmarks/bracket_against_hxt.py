@@ -16,38 +16,13 @@ import os
 import platform
 import subprocess
 import sys
-import time
 
-from against_rivals import run_hxt
+from meshers import HXT, OURS, PLAIN, ROOT, run
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, ROOT)
 PART = os.path.join(ROOT, "resources", "examples", "bracket.step")
-PER_CIRCLE = 12
-HXT, HXT_FINER = "Gmsh HXT", "Gmsh HXT, finer"
-MESHERS = ("ours", "ours, not optimised", HXT, HXT_FINER)
+HXT_FINER = "Gmsh HXT, finer"
+MESHERS = (OURS, PLAIN, HXT, HXT_FINER)
 FINER = 0.79  # size setting of HXT for about as many tetrahedra as ours
-
-
-def run_ours(size, optimise):
-    """(points, tets, wall seconds, processor seconds, seconds per stage)"""
-    import DelaunayMesher
-    from DelaunayMesher import document, extension
-
-    shape = document.read_shape(PART)
-    extension.load()
-    options = document.make_options(
-        max_size=size, elements_per_circle=PER_CIRCLE, threads=1, optimise=optimise
-    )
-    start = time.perf_counter(), time.process_time()
-    mesh = DelaunayMesher.mesh(shape, options)
-    return (
-        mesh.points,
-        mesh.tets,
-        time.perf_counter() - start[0],
-        time.process_time() - start[1],
-        mesh.seconds,
-    )
 
 
 def run_one(mesher, size):
@@ -56,22 +31,18 @@ def run_one(mesher, size):
 
     from DelaunayMesher import quality
 
-    if mesher in (HXT, HXT_FINER):
-        run = (*run_hxt(PART, size * (FINER if mesher == HXT_FINER else 1)), {})
-    else:
-        run = run_ours(size, optimise=mesher == "ours")
-    points, tets, wall, processor, stages = run
-    angles = quality.dihedral_angles(points, tets)
+    made = run(HXT, PART, FINER * size) if mesher == HXT_FINER else run(mesher, PART, size)
+    angles = quality.dihedral_angles(made.points, made.tets)
     row = {
-        "tets": len(tets),
-        "wall": wall,
-        "processor": processor,
-        "stages": stages,
+        "tets": len(made.tets),
+        "wall": made.wall,
+        "processor": made.processor,
+        "stages": made.stages,
         "smallest": float(angles.min()),
         "largest": float(angles.max()),
         "mean": float(angles.min(axis=1).mean()),
         "below 20": int((angles.min(axis=1) < 20).sum()),
-        "edge": float(np.median(quality.edge_lengths(points, tets)) / size),
+        "edge": float(np.median(quality.edge_lengths(made.points, made.tets)) / size),
     }
     print(json.dumps(row))
 
@@ -91,7 +62,7 @@ def repeat(options):
 def print_table(rows, size):
     load = "%.1f" % os.getloadavg()[0] if hasattr(os, "getloadavg") else "?"
     print("bracket, size %g mm, one thread, %s, %s cores, load %s, best of %d"
-          % (size, platform.machine(), os.cpu_count(), load, len(rows["ours"])))  # fmt: skip
+          % (size, platform.machine(), os.cpu_count(), load, len(rows[OURS])))  # fmt: skip
     print()
     heads = "mesher|tetrahedra|seconds|processor s|tets/s|dihedral angles|mean smallest|below 20|edge / h"
     print("| %s |" % heads.replace("|", " | "))
@@ -109,10 +80,10 @@ def print_table(rows, size):
         for rival in (HXT, HXT_FINER):
             ratios = ["%s %.2f" % (name, speed[name] / speed[rival]) for name in MESHERS[:2]]
             print("tets/s over those of %s (%s time): %s" % (rival, clock, ", ".join(ratios)))
-    stages = rows["ours"][0]["stages"]
-    best = {stage: min(row["stages"][stage] for row in rows["ours"]) for stage in stages}
+    stages = rows[OURS][0]["stages"]
+    best = {stage: min(row["stages"][stage] for row in rows[OURS]) for stage in stages}
     print("stages of ours, s: " + ", ".join("%s %.3f" % item for item in best.items()))
-    plain = rows["ours, not optimised"]
+    plain = rows[PLAIN]
     refined = max(row["tets"] / row["stages"]["refinement"] for row in plain)
     print("refinement alone: %d k tets/s" % (refined / 1000))
 

@@ -113,7 +113,17 @@ class ShortSpinBox(QtGui.QDoubleSpinBox):
         return self.locale().toString(float(value), "g", 6)
 
 
-class NumberField(Field):
+class SpinField(Field):
+    """A number in a spin box of Qt's."""
+
+    def read(self):
+        return self.widget.value()
+
+    def write(self, value):
+        self.widget.setValue(value)
+
+
+class NumberField(SpinField):
     """Number without a unit."""
 
     def make(self):
@@ -125,14 +135,8 @@ class NumberField(Field):
         widget.valueChanged.connect(self.notify)
         return widget
 
-    def read(self):
-        return self.widget.value()
 
-    def write(self, value):
-        self.widget.setValue(value)
-
-
-class WholeField(Field):
+class WholeField(SpinField):
     """Whole number; 0 means automatic where the help says so."""
 
     def make(self):
@@ -146,12 +150,6 @@ class WholeField(Field):
             widget.setGroupSeparatorShown(True)
         widget.valueChanged.connect(self.notify)
         return widget
-
-    def read(self):
-        return self.widget.value()
-
-    def write(self, value):
-        self.widget.setValue(value)
 
 
 class CheckField(Field):
