@@ -78,9 +78,10 @@ bool BoundarySite::collect_patch(Index t, Index a, Index b) {
       if (is_own_segment(u, w)) continue;
       const int n = complex.triangles_at(u, w, fan);
       if (complex.is_segment(u, w)) {
-        if (is_flat_on(u, w) ||
-            std::all_of(fan.begin(), fan.begin() + n, [&](Index s) { return swallowed(s); }))
-          segment_ = {u, w};
+        // Two of its triangles would become one.
+        const auto inside =
+            std::count_if(fan.begin(), fan.begin() + n, [&](Index s) { return swallowed(s); });
+        if (is_flat_on(u, w) || inside >= std::min(n, 2)) segment_ = {u, w};
         continue;
       }
       for (int m = 0; m < n; ++m)
@@ -143,7 +144,8 @@ bool BoundarySite::ring_separates_regions() {
   std::vector<std::uint64_t> ring;
   for (const RingEdge& e : ring_) ring.push_back(BoundaryComplex::key(e.a, e.b));
   std::sort(ring.begin(), ring.end());
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  // Two faces that meet where no CAD edge lies (the boundary was replaced there) would share a triangle.
+  if (std::adjacent_find(ring.begin(), ring.end()) != ring.end()) return false;
   std::size_t found = 0;
   for (std::size_t k = 0; k + 1 < sides.size(); k += 2) {
     if (sides[k].key != sides[k + 1].key) return false;
