@@ -138,10 +138,14 @@ bool EditMesh::on_one_face(Index a, Index b, Index c) const {
 void EditMesh::list_boundary() {
   if (boundary_listed_) return;
   boundary_listed_ = true;
-  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
-    triangle_of_[sorted(mesh_.triangles[k])] = static_cast<Index>(k);
-  for (std::size_t k = 0; k < mesh_.segments.size(); ++k)
-    segment_of_[sorted(mesh_.segments[k])] = static_cast<Index>(k);
+  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k) {
+    const auto [it, is_new] = triangle_of_.try_emplace(sorted(mesh_.triangles[k]), static_cast<Index>(k));
+    if (!is_new) it->second = kTwice;
+  }
+  for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
+    const auto [it, is_new] = segment_of_.try_emplace(sorted(mesh_.segments[k]), static_cast<Index>(k));
+    if (!is_new) it->second = kTwice;
+  }
 }
 
 Index EditMesh::find_triangle(Index a, Index b, Index c) {
@@ -162,6 +166,7 @@ Index EditMesh::add_point(const Vec3& p, Entity entity, std::span<const Index> f
   mesh_.point_entity.push_back(entity);
   vertex_tet_.push_back(-1);
   pinched_.push_back(0);
+  if (clock_ > 0) changed_.push_back(clock_);
   point_faces_.insert(point_faces_.end(), faces.begin(), faces.end());
   face_start_.push_back(static_cast<Index>(point_faces_.size()));
   stars_listed_ = false;
@@ -308,6 +313,7 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
     mesh_.neighbours[open[k].link / 4][open[k].link % 4] = -1;
     marks_[open[k].link / 4] |= static_cast<std::uint8_t>(1 << open[k].link % 4);
   }
+  note_change(created_);
   return created_;
 }
 

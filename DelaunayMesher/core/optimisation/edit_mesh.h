@@ -97,16 +97,27 @@ class EditMesh {
   // Do all three points lie on one CAD face?  No interior triangle may be made of them.
   bool on_one_face(Index a, Index b, Index c) const;
 
+  // A clock that goes on with every change after start_clock(), and when something in the star of v last
+  // changed: what failed there later than that fails again.  A trial counts when it is kept.
+  void start_clock() { changed_.assign(mesh_.points.size(), ++clock_); }
+  Index now() const { return clock_; }
+  Index last_change(Index v) const { return changed_[v]; }
+  Index last_change(const Tet& t) const {
+    return std::max({changed_[t[0]], changed_[t[1]], changed_[t[2]], changed_[t[3]]});
+  }
+
   // A new point on these CAD faces (sorted), which no tetrahedron uses yet.
   Index add_point(const Vec3& p, Entity entity, std::span<const Index> faces);
   // Puts v at p; its tetrahedra, whose badness then is `bad`.
   void move_point(Index v, const Vec3& p, std::span<const Index> tets, std::span<const float> bad);
   // The boundary triangle with these corners, -1 if none; its CAD face; is (a, b) a segment of a CAD edge?
+  // kTwice where CAD faces or edges lie on each other, which is an error of the CAD: nothing changes there.
+  static constexpr Index kTwice = -2;
   Index find_triangle(Index a, Index b, Index c);
   const Triangle& triangle(Index k) const { return mesh_.triangles[k]; }
   Index triangle_face(Index k) const { return mesh_.triangle_face[k]; }
   Index find_segment(Index a, Index b);
-  bool is_segment(Index a, Index b) { return find_segment(a, b) >= 0; }
+  bool is_segment(Index a, Index b) { return find_segment(a, b) != -1; }
   Index segment_edge(Index k) const { return mesh_.segment_edge[k]; }
   const Segment& segment(Index k) const { return mesh_.segments[k]; }
   // Changes of the boundary; its tetrahedra are to be replaced along with it.  Corners -1 remove it.
@@ -142,6 +153,7 @@ class EditMesh {
   void note_tet(Index t);
   void note(int kind, Index index, Index value = 0);
   void take_back();
+  void note_change(std::span<const Index> tets);
   void close_boundary();
 
   VolumeMesh& mesh_;
@@ -167,6 +179,8 @@ class EditMesh {
   std::vector<Index> noted_, touched_;  // per tetrahedron the last trial that changed it; those of this one
   Index trial_ = 0;
   AngleCosines trial_before_;
+  std::vector<Index> changed_;  // per point
+  Index clock_ = 0;             // 0: not started
   bool stars_listed_ = false, boundary_listed_ = false;
   Index stamp_value_ = 0;
   AngleCosines first_extremes_;

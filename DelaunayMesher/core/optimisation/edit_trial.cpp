@@ -38,6 +38,15 @@ void EditMesh::move_point(Index v, const Vec3& p, std::span<const Index> tets, s
   }
   mesh_.points[v] = p;
   for (std::size_t k = 0; k < tets.size(); ++k) bad_[tets[k]] = bad[k];
+  note_change(tets);
+}
+
+void EditMesh::note_change(std::span<const Index> tets) {
+  if (clock_ == 0 || in_trial_) return;
+  ++clock_;
+  for (const Index t : tets)
+    if (t < slot_count() && !removed(t))
+      for (const Index v : mesh_.tets[t]) changed_[v] = clock_;
 }
 
 AngleCosines EditMesh::trial_now() const {
@@ -56,7 +65,7 @@ Index EditMesh::trial_worst() const {
 
 void EditMesh::end_trial(bool keep) {
   in_trial_ = false;
-  if (!keep) take_back();
+  keep ? note_change(touched_) : take_back();
 }
 
 void EditMesh::take_back() {
@@ -99,6 +108,7 @@ void EditMesh::take_back() {
         mesh_.point_entity.pop_back();
         vertex_tet_.pop_back();
         pinched_.pop_back();
+        if (clock_ > 0) changed_.pop_back();
         face_start_.pop_back();
         point_faces_.resize(value);
         break;

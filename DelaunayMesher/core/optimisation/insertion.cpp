@@ -278,6 +278,7 @@ bool Inserter::list_edge(Index a, Index b) {
 bool Inserter::insert_on_edge(Index a, Index b) {
   if (mesh_.pinched(a) || mesh_.pinched(b) || !list_edge(a, b)) return false;
   const Index segment = mesh_.find_segment(a, b);
+  if (segment == EditMesh::kTwice) return false;
   if (segment < 0) {
     if (on_faces_.size() > 1 || first_triangles_.size() > 2) return false;
     split_ = {-1, -1};

@@ -40,6 +40,7 @@ class Optimiser {
       i == 0 ? flip(kSharpFlip, FlipGoal::worst) : flip(kMeanFlip, FlipGoal::mean);
       sweep();
     }
+    mesh_.start_clock();
     for (int round = 0; round < kWorstRounds; ++round)
       if (!cure_worst(round)) break;
     set_range(mesh_.first_extremes(), report_.min_before, report_.max_before);
@@ -151,17 +152,33 @@ class Optimiser {
   bool cure(Index t, int round) {
     const auto pending = [&] { return !mesh_.removed(t) && mesh_.bad(t) > target_; };
     if (!pending()) return false;
+    tet_failed_.resize(mesh_.slot_count(), 0);
+    if (tet_failed_[t] >= mesh_.last_change(mesh_.tet(t))) return false;
+    if (cure_by_all(t, round)) return true;
+    if (round > 0) tet_failed_[t] = mesh_.now();
+    return false;
+  }
+  bool cure_by_all(Index t, int round) {
+    const auto pending = [&] { return !mesh_.removed(t) && mesh_.bad(t) > target_; };
     if (flippers_[0].improve(t)) return ++report_.flipped, true;
     if (round > 0 && flippers_[0].improve_boundary(t, geometry_)) return ++report_.flipped, true;
     bool changed = false;
     const Tet corners = mesh_.tet(t);
     for (Index v : corners) {
       if (!pending()) return changed;
-      if (smoothers_[0].smooth_worst(v, 3)) ++report_.smoothed, changed = true;
+      changed |= smooth_worst(v);
     }
     if (round > 0 && pending() && contractor_.collapse_best(t)) ++report_.collapsed, changed = true;
     if (round > 0 && pending() && rescuer_.rescue(t)) ++report_.rescued, changed = true;
     return changed;
+  }
+
+  bool smooth_worst(Index v) {
+    point_failed_.resize(mesh_.vertex_count(), 0);
+    if (point_failed_[v] >= mesh_.last_change(v)) return false;
+    if (smoothers_[0].smooth_worst(v, 3)) return ++report_.smoothed, true;
+    point_failed_[v] = mesh_.now();
+    return false;
   }
 
   EditMesh mesh_;
@@ -171,6 +188,7 @@ class Optimiser {
   Contractor contractor_;
   Rescuer rescuer_;
   Context& context_;
+  std::vector<Index> tet_failed_, point_failed_;  // when nothing helped, by the clock of the mesh
   double target_ = 0;
   int part_ = 0;
   OptimiseReport report_;

@@ -166,3 +166,53 @@ TEST_CASE("poor elements are rescued, none that a rescue touches gets worse") {
   check(s, tools.geometry);
   CHECK(sample::volume(s.mesh) == doctest::Approx(32));
 }
+
+// Where CAD faces lie on each other, a triangle of one is one of the other too.
+TEST_CASE("boundary triangles and segments that are listed twice stay with all their points") {
+  auto s = sample::box(4, 0.1, 3);
+  const auto triangles = s.mesh.triangles.size(), segments = s.mesh.segments.size();
+  for (std::size_t k = 0; k < triangles; k += 3) {
+    s.mesh.triangles.push_back(s.mesh.triangles[k]);
+    s.mesh.triangle_face.push_back(s.mesh.triangle_face[k]);
+  }
+  for (std::size_t k = 0; k < segments; k += 5) {
+    s.mesh.segments.push_back(s.mesh.segments[k]);
+    s.mesh.segment_edge.push_back(s.mesh.segment_edge[k]);
+  }
+  const VolumeMesh before = s.mesh;
+  Tools tools(s);
+  int contracted = 0;
+  for (Index t = 0; t < tools.edit.slot_count(); ++t)
+    for (int place = 0; place < Inserter::kPlaces; ++place) {
+      if (tools.edit.removed(t)) continue;
+      const Tet c = tools.edit.tet(t);
+      contracted += tools.contractor.contract(c[place % 4], c[(place + 1) % 4]);
+      if (!tools.edit.removed(t) && t % 7 == 0) tools.inserter.insert(t, place);
+    }
+  CHECK(contracted > 20);
+  for (std::size_t k = 0; k < triangles; k += 3) CHECK(s.mesh.triangles[k] == before.triangles[k]);
+  for (std::size_t k = triangles; k < before.triangles.size(); ++k)
+    for (const Index v : s.mesh.triangles[k]) CHECK(tools.edit.vertex_tet(v) >= 0);
+  for (std::size_t k = segments; k < before.segments.size(); ++k)
+    for (const Index v : s.mesh.segments[k]) CHECK(tools.edit.vertex_tet(v) >= 0);
+}
+
+TEST_CASE("the clock tells whose neighbourhood has changed, by trials only when they are kept") {
+  auto s = sample::box(4, 0.2, 3);
+  Tools tools(s);
+  tools.edit.start_clock();
+  for (const bool keep : {false, true}) {
+    const Index start = tools.edit.now(), count = tools.edit.vertex_count();
+    tools.edit.begin_trial();
+    Index t = 0;
+    while (tools.edit.removed(t) || !tools.inserter.insert(t, 0)) ++t;
+    const Index v = tools.edit.vertex_count() - 1;
+    const auto star = tools.edit.star(v);
+    std::vector<char> beside(count + 1, 0);
+    for (const Index n : star)
+      for (const Index w : tools.edit.tet(n)) beside[w] = 1;
+    tools.edit.end_trial(keep);
+    for (Index w = 0; w < tools.edit.vertex_count(); ++w)
+      CHECK((tools.edit.last_change(w) > start) == (keep && beside[w]));
+  }
+}
