@@ -11,41 +11,50 @@ PARAMETERS = 7  # origin (3), axis (3), a
 
 
 def edge_records(edges, wanted):
-    """Arrays (kind (E,), params (E, 7), spline (E,)), list of spline dicts, and the edges without a curve.
+    """Arrays (kind (E,), params (E, 7), spline (E,)), and the list of spline dicts.
 
     wanted: (E,) bool; other edges (degenerate ones, seams that are dropped) stay polylines.
     """
     kinds = np.zeros(len(edges), dtype=np.int32)
     params = np.zeros((len(edges), PARAMETERS))
     spline = np.full(len(edges), -1, dtype=np.int32)
-    splines, doubtful = [], []
-    for number in np.flatnonzero(wanted):
-        kind, numbers, record = edge_record(edges[number])
-        kinds[number] = kind
+    splines, straight, ends = [], [], []
+    for number in np.flatnonzero(wanted).tolist():
+        edge, curve = edges[number], curve_of(edges[number])
+        if isinstance(curve, (Part.Line, Part.LineSegment)):
+            straight.append(number)
+            ends += [(*edge.valueAt(end),) for end in edge.ParameterRange]
+            continue
+        kinds[number], numbers, record = curved_record(edge, curve)
         if numbers is not None:
             params[number] = numbers[:PARAMETERS]
         if record is not None:
             spline[number] = len(splines)
             splines.append(record)
-        if kind == POLYLINE:
-            doubtful.append(int(number))
-    return kinds, params, spline, splines, doubtful
+    ends = np.array(ends).reshape(-1, 2, 3)
+    along = ends[:, 1] - ends[:, 0]
+    kinds[straight] = LINE
+    params[straight, :3] = ends[:, 0]
+    params[straight, 3:6] = along / np.linalg.norm(along, axis=1)[:, None]
+    return kinds, params, spline, splines
 
 
-def edge_record(edge):
+def curve_of(edge):
+    """The Part curve of an edge, or None if FreeCAD has no class for its kind."""
+    try:
+        return edge.Curve
+    except (RuntimeError, TypeError, ValueError):
+        return None
+
+
+def curved_record(edge, curve):
     """(kind, params or None, spline dict or None) of one edge; each is tried against points of the edge."""
     first, last = edge.ParameterRange
     scale = max(abs(edge.BoundBox.DiagonalLength), 1e-3)
     samples = [edge.valueAt(first + share * (last - first)) for share in (0.0, 0.3, 0.7, 1.0)]
-    points = np.array([tuple(point) for point in samples])
-    try:
-        curve = edge.Curve
-    except (RuntimeError, TypeError, ValueError):  # a kind FreeCAD has no class for
-        curve = None
-    if isinstance(curve, (Part.Line, Part.LineSegment)):
-        return LINE, parameters(points[0], points[-1] - points[0]), None
     if isinstance(curve, Part.Circle):
         record = parameters(curve.Center, curve.Axis, curve.Radius)
+        points = np.array([tuple(point) for point in samples])
         if np.abs(circle_distances(record, points)).max() <= 1e-9 * scale:
             return CIRCLE, record, None
     for candidate, start, end in spline_candidates(edge, curve, first, last):

@@ -18,39 +18,33 @@ FACETS, PLANE, CYLINDER, CONE, SPHERE, TORUS, SPLINE = range(7)
 PARAMETERS = 8  # origin (3), axis (3), a, b
 
 
-def face_records(faces, face_nodes, tolerances):
-    """Arrays (kind (F,), params (F, 8), spline (F,)), the list of spline dicts, and notes about doubtful
-    faces.
+def face_records(cad, face_nodes, tolerances):
+    """Arrays (kind (F,), params (F, 8), spline (F,)), the list of spline dicts, and the faces without a
+    surface.
 
-    face_nodes: per face an (n, 3) array of points on it.  tolerances: per face how far these may be off, as
-    CAD edges are only near the surface.
+    face_nodes: per face an (n, 3) array of points on it.  tolerances (F,): how far these may be off, as CAD
+    edges are only near the surface.
     """
-    kinds = np.zeros(len(faces), dtype=np.int32)
-    params = np.zeros((len(faces), PARAMETERS))
-    spline = np.full(len(faces), -1, dtype=np.int32)
+    count = len(cad.faces)
+    kinds, params = analytic_records(cad.surfaces, face_nodes)
+    kinds[~confirmed(kinds, params, face_nodes, tolerances)] = FACETS
+    spline = np.full(count, -1, dtype=np.int32)
     splines, doubtful = [], []
-    for number, (face, nodes, tolerance) in enumerate(zip(faces, face_nodes, tolerances)):
-        kind, numbers, record = face_record(face, nodes, tolerance)
-        kinds[number] = kind
-        if numbers is not None:
-            params[number] = numbers
+    for number in np.flatnonzero(kinds == FACETS).tolist():
+        face, surface, nodes = cad.faces[number], cad.surfaces[number], face_nodes[number]
+        kinds[number], numbers, record = freeform_record(face, surface, nodes, tolerances[number])
+        params[number] = 0.0 if numbers is None else numbers
         if record is not None:
             spline[number] = len(splines)
             splines.append(record)
-        if kind == FACETS:
+        if kinds[number] == FACETS:
             doubtful.append(number)
     return kinds, params, spline, splines, doubtful
 
 
-def face_record(face, nodes, tolerance):
-    """(kind, params or None, spline dict or None) of one face."""
-    try:
-        surface = face.Surface
-    except (RuntimeError, TypeError, ValueError):  # a kind FreeCAD has no class for
-        surface = None
-    analytic = analytic_record(surface, nodes)
-    if analytic and len(nodes) and np.median(np.abs(distances(*analytic, nodes))) <= tolerance:
-        return analytic[0], analytic[1], None
+def freeform_record(face, surface, nodes, tolerance):
+    """(kind, params or None, spline dict or None) of one face that is no analytic surface, or none that its
+    nodes lie on."""
     for candidate, ranges, same_parameters in spline_candidates(face, surface):
         fits = agrees(candidate, face) if same_parameters else passes_through(candidate, nodes, tolerance)
         if fits:
@@ -70,31 +64,58 @@ def parameters(origin, axis, a=0.0, b=0.0):
     return np.concatenate([tuple(origin), axis / np.linalg.norm(axis), [a, b]])
 
 
-def analytic_record(surface, nodes):
-    """(kind, params) of an analytic surface, or None."""
-    if isinstance(surface, Part.Plane):
-        return PLANE, parameters(surface.Position, surface.Axis)
-    if isinstance(surface, Part.Cylinder):
-        return CYLINDER, parameters(surface.Center, surface.Axis, surface.Radius)
-    if isinstance(surface, Part.Sphere):
-        return SPHERE, parameters(surface.Center, (0.0, 0.0, 1.0), surface.Radius)
-    if isinstance(surface, Part.Toroid):
-        return TORUS, parameters(surface.Center, surface.Axis, surface.MajorRadius, surface.MinorRadius)
-    if isinstance(surface, Part.Cone):
-        record = parameters(surface.Apex, surface.Axis, abs(surface.SemiAngle))
+def analytic_records(surfaces, face_nodes):
+    """(kind (F,), params (F, 8)) of the analytic ones among the surfaces of faces; FACETS for the others."""
+    rows = [analytic_numbers(surface) for surface in surfaces]
+    kinds = np.array([kind for kind, _ in rows], dtype=np.int32)
+    params = np.array([numbers for _, numbers in rows], dtype=np.float64).reshape(-1, PARAMETERS)
+    length = np.linalg.norm(params[:, 3:6], axis=1)
+    params[:, 3:6] /= np.where(length > 0.0, length, 1.0)[:, None]
+    for number in np.flatnonzero(kinds == CONE).tolist():
+        nodes, record = face_nodes[number], params[number]
         if len(nodes) and ((nodes - record[:3]) @ record[3:6]).mean() < 0:
             record[3:6] *= -1.0  # towards the nappe that the face lies on
-        return CONE, record
-    return None
+    return kinds, params
+
+
+def analytic_numbers(surface):
+    """(kind, its eight numbers, the axis of any length) of a surface; FACETS for one that is not analytic."""
+    if isinstance(surface, Part.Plane):
+        return PLANE, (*surface.Position, *surface.Axis, 0.0, 0.0)
+    if isinstance(surface, Part.Cylinder):
+        return CYLINDER, (*surface.Center, *surface.Axis, surface.Radius, 0.0)
+    if isinstance(surface, Part.Sphere):
+        return SPHERE, (*surface.Center, 0.0, 0.0, 1.0, surface.Radius, 0.0)
+    if isinstance(surface, Part.Toroid):
+        return TORUS, (*surface.Center, *surface.Axis, surface.MajorRadius, surface.MinorRadius)
+    if isinstance(surface, Part.Cone):
+        return CONE, (*surface.Apex, *surface.Axis, abs(surface.SemiAngle), 0.0)
+    return FACETS, (0.0,) * PARAMETERS
+
+
+def confirmed(kinds, params, face_nodes, tolerances):
+    """(F,) bool: whether most nodes of each face lie on its analytic surface; no nodes confirm nothing."""
+    counts = np.array([len(nodes) for nodes in face_nodes])
+    owner = np.repeat(np.arange(len(kinds)), counts)
+    nodes = np.concatenate([np.zeros((0, 3)), *face_nodes])
+    near = np.zeros(len(nodes), dtype=bool)
+    for kind in (PLANE, CYLINDER, CONE, SPHERE, TORUS):
+        mine = np.flatnonzero(kinds[owner] == kind)
+        off = distances(kind, params[owner[mine]], nodes[mine])
+        near[mine] = np.abs(off) <= np.asarray(tolerances)[owner[mine]]
+    return 2 * np.bincount(owner[near], minlength=len(kinds)) > counts
 
 
 def distances(kind, params, points):
-    """(n,) distance (mm, unsigned or signed by the kind's habit) of points from an analytic surface."""
-    origin, axis, a, b = params[:3], params[3:6], params[6], params[7]
+    """(n,) distance (mm, unsigned or signed by the kind's habit) of points from analytic surfaces.
+
+    params (8,), or (n, 8): a record for each point.
+    """
+    origin, axis, a, b = params[..., :3], params[..., 3:6], params[..., 6], params[..., 7]
     offset = points - origin
     if kind == SPHERE:
         return np.linalg.norm(offset, axis=1) - a
-    height = offset @ axis
+    height = (offset * axis).sum(axis=1)
     if kind == PLANE:
         return height
     radius = np.linalg.norm(offset - height[:, None] * axis, axis=1)
@@ -153,14 +174,14 @@ def passes_through(surface, nodes, tolerance, samples=5):
     return 2 * sum(near) > len(near)
 
 
-def seam_is_smooth(edge, face, kind):
+def seam_is_smooth(edge, face, surface, kind):
     """Whether the surface passes through its seam without a kink (analytic surfaces always do)."""
     if kind in (CYLINDER, CONE, SPHERE, TORUS):
         return True
     u0, u1, v0, v1 = face.ParameterRange
     first, last = edge.ParameterRange
     for share in (0.1, 0.5, 0.9):
-        u, v = face.Surface.parameter(edge.valueAt(first + share * (last - first)))
+        u, v = surface.parameter(edge.valueAt(first + share * (last - first)))
         across_u = min(abs(u - u0), abs(u - u1)) / (u1 - u0) < min(abs(v - v0), abs(v - v1)) / (v1 - v0)
         ends = ((u0, v), (u1, v)) if across_u else ((u, v0), (u, v1))
         normals = list(itertools.starmap(face.normalAt, ends))

@@ -26,7 +26,7 @@ def fill(mesh, sides):
     clean: whether no filled plane face has outlines that cross each other.
     """
     filled, clean, beside = set(), True, faces_of_segments(mesh)
-    present = np.bincount(mesh.triangle_face, minlength=len(mesh.faces)) > 0
+    present = np.bincount(mesh.triangle_face, minlength=len(mesh.cad.faces)) > 0
     for face in np.flatnonzero(~present & sides.any(axis=1)).tolist():
         loops = outline(mesh, face)
         if loops:
@@ -34,7 +34,7 @@ def fill(mesh, sides):
             mesh, flawless = with_face(mesh, face, loops, 1.0)
             clean &= flawless
             filled |= {face} if len(mesh.triangles) > count else set()
-    for solid in range(1, len(mesh.shape.Solids) + 1):
+    for solid in range(1, len(mesh.cad.solids) + 1):
         loops = labelled_loops(mesh, sides, solid, beside)
         for face in sorted(loops):
             inward = sides[face, 1] == solid and sides[face, 0] != solid
@@ -61,9 +61,9 @@ def with_face(mesh, face, loops, sign):
 
 def outline(mesh, face):
     """The loops of points round a CAD face as its edges run; [] where these do not close."""
-    following, edges = {}, mesh.face_edges[face]
-    for edge, shape in zip(edges, mesh.faces[face].Edges):
-        if mesh.seam_faces.get(edge) == face:
+    following, cad = {}, mesh.cad
+    for edge, shape in zip(cad.face_edges[face], cad.faces[face].Edges):
+        if cad.seam_faces.get(edge) == face:
             continue
         for a, b in mesh.segments[mesh.segment_edge == edge].tolist():
             a, b = (b, a) if shape.Orientation == "Reversed" else (a, b)
@@ -81,7 +81,7 @@ def faces_of_segments(mesh):
     """{(lower point, higher point): CAD faces that meet there}"""
     result = {}
     for (a, b), edge in zip(mesh.segments.tolist(), mesh.segment_edge.tolist()):
-        result.setdefault((min(a, b), max(a, b)), []).extend(mesh.edge_faces[edge])
+        result.setdefault((min(a, b), max(a, b)), []).extend(mesh.cad.edge_faces[edge])
     return result
 
 
@@ -145,7 +145,7 @@ def fill_face(mesh, face, loops, sign):
 
     sign: whether the triangles go with (1.0) or against (-1.0) the normal of the face.
     """
-    surface = mesh.faces[face].Surface
+    surface = mesh.cad.surfaces[face]
     plane = isinstance(surface, Part.Plane)
     if plane:
         triangles = plane_triangles(mesh.points, loops)
@@ -154,7 +154,7 @@ def fill_face(mesh, face, loops, sign):
     loop = bridged(mesh.points, loops)
     if len(loop) > LONGEST:
         return mesh.points, np.zeros((0, 3), dtype=np.int64), False
-    shape = FaceShape(mesh.faces[face], surface, sign)
+    shape = FaceShape(mesh.cad.faces[face], surface, sign)
     triangles = least_cost(mesh.points[loop], np.array([shape.normal(mesh.points[point]) for point in loop]))
     triangles = np.array(loop)[triangles]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]

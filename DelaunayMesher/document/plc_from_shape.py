@@ -12,11 +12,12 @@ import Part
 
 from ..errors import MeshError, entity_name
 from ..sizing import AUTOMATIC_FRACTION
+from .cad_elements import CadElements
 from .closed import open_triangles, solid_volumes
 from .filling import fill
 from .shape_plc import ShapePlc, face_names
 from .stitching import stitch
-from .tessellation import face_sides, tessellate
+from .tessellation import tessellate
 
 LINEAR_SHARE = 0.02  # of the element size
 WALL_SHARE = 0.1  # of the thickness of the thinnest solid
@@ -50,14 +51,17 @@ def convert(shape, options=None, keep=()):
     """
     check_solid(shape)
     keep = set(keep) | set(getattr(options, "sizes", None) or ())
-    linear, angular = deflections(shape, options)
+    cad = CadElements(shape)
+    if not np.isfinite(cad.diagonal):
+        raise MeshError("plc", "not_finite", "the shape has no finite extent")
+    linear, angular = deflections(cad.diagonal, options)
     tried = []
     for linear_factor, angular_factor in ATTEMPTS:
-        mesh, sides, fault = attempt(shape, linear * linear_factor, angular * angular_factor)
+        mesh, fault = attempt(cad, linear * linear_factor, angular * angular_factor)
         if not fault:
-            mesh, sides = finer_for_walls(shape, mesh, sides, linear * linear_factor, angular)
-            return outward_plc(mesh, sides, keep, [])
-        tried.append(Mended(mesh, sides, fault))
+            mesh = finer_for_walls(mesh, linear * linear_factor, angular)
+            return outward_plc(mesh, cad.sides, keep, [])
+        tried.append(Mended(mesh, fault))
         if tried[-1].clean or not shape.isValid():  # invalid: another tessellation will not mend it
             break
     best = min(tried, key=lambda mended: (mended.left, not mended.clean))
@@ -70,11 +74,10 @@ def outward_plc(mesh, sides, keep, warnings):
     return ShapePlc(mesh, outward(mesh, sides, warnings), keep, warnings)
 
 
-def attempt(shape, linear, angular):
-    """(Tessellation, sides (F, 2), fault): fault is None when the triangles enclose every solid."""
-    mesh = tessellate(shape, linear, angular)
-    sides = face_sides(mesh.faces, mesh.shape.Solids)
-    return mesh, sides, fault_of(mesh, sides)
+def attempt(cad, linear, angular):
+    """(Tessellation, fault): fault is None when the triangles enclose every solid."""
+    mesh = tessellate(cad, linear, angular)
+    return mesh, fault_of(mesh, cad.sides)
 
 
 def fault_of(mesh, sides):
@@ -86,9 +89,9 @@ def fault_of(mesh, sides):
 class Mended:
     """A tessellation with gaps, mended: `left` open edges, `clean` if none and nothing crosses."""
 
-    def __init__(self, mesh, sides, fault):
+    def __init__(self, mesh, fault):
         self.before, self.fault = mesh, fault
-        mesh, sides = stitch(mesh, sides)
+        mesh, sides = stitch(mesh, mesh.cad.sides)
         self.mesh, self.filled, clean = fill(mesh, sides)
         self.sides = sides
         self.still = fault_of(self.mesh, sides)
@@ -104,7 +107,7 @@ class Mended:
         if self.still:
             broken = np.unique(sides[mesh.triangle_face[self.still[0]]])
             broken = broken[broken > 0]
-            if len(broken) == len(mesh.shape.Solids):
+            if len(broken) == len(mesh.cad.solids):
                 raise open_shape(shape, self.before, *self.fault)
             names = ", ".join(entity_name(3, int(number)) for number in broken)
             warnings.append("%s left out: %s" % (names, open_shape(shape, mesh, *self.still).message))
@@ -112,25 +115,24 @@ class Mended:
         return mesh, sides, warnings
 
 
-def finer_for_walls(shape, mesh, sides, linear, angular):
-    """(Tessellation, sides): again and finer when the facets of a thin curved wall might cross."""
-    wall = thinnest(mesh, sides)
-    wanted = max(WALL_SHARE * wall, FINEST * shape.BoundBox.DiagonalLength)
+def finer_for_walls(mesh, linear, angular):
+    """The Tessellation, again and finer when the facets of a thin curved wall might cross."""
+    wanted = max(WALL_SHARE * thinnest(mesh), FINEST * mesh.cad.diagonal)
     if wanted < 0.8 * linear:
-        finer, finer_sides, fault = attempt(shape, wanted, angular)
+        finer, fault = attempt(mesh.cad, wanted, angular)
         if not fault:
-            return finer, finer_sides
-    return mesh, sides
+            return finer
+    return mesh
 
 
-def thinnest(mesh, sides):
+def thinnest(mesh):
     """Smallest mean thickness of a solid with curved faces: twice its volume over its surface (mm)."""
-    sides = sides[mesh.triangle_face]
-    count = len(mesh.shape.Solids)
+    sides = mesh.cad.sides[mesh.triangle_face]
+    count = len(mesh.cad.solids)
     volumes = np.abs(solid_volumes(mesh.points, mesh.triangles, sides, count))
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
     areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    flat = np.array([isinstance(face.Surface, Part.Plane) for face in mesh.faces])[mesh.triangle_face]
+    flat = np.array([isinstance(surface, Part.Plane) for surface in mesh.cad.surfaces])[mesh.triangle_face]
     surface = sum(np.bincount(side, weights=areas, minlength=count + 1)[1:] for side in sides.T)
     curved = sum(np.bincount(side[~flat], minlength=count + 1)[1:] for side in sides.T) > 0
     return (2.0 * volumes / np.maximum(surface, 1e-300))[curved].min(initial=np.inf)
@@ -151,17 +153,13 @@ def check_solid(shape):
         article = "an" if kind == "edge" else "a"
         text = "the shape is %s %s without a solid (%s)" % (article, kind, hint)
         raise MeshError("plc", "not_a_solid", text)
-    bounds = shape.BoundBox
-    if not bounds.isValid() or not np.isfinite(bounds.DiagonalLength):
-        raise MeshError("plc", "not_finite", "the shape has no finite extent")
 
 
-def deflections(shape, options):
+def deflections(diagonal, options):
     """(linear mm, angular rad): a share of the element size, finer for many elements per circle.
 
     Facets farther from a twisted face than a fraction of the elements on it make meshes that fold.
     """
-    diagonal = shape.BoundBox.DiagonalLength
     size = getattr(options, "max_size", None) or diagonal / AUTOMATIC_FRACTION
     per_circle = getattr(options, "elements_per_circle", None) or 0.0
     angular = min(ANGULAR, np.pi / per_circle) if per_circle > 0 else ANGULAR
@@ -179,10 +177,10 @@ def smallest_given(options, size):
 
 def outward(mesh, sides, warnings):
     """Sides with inside-out solids (negative volume) turned round, and solids without a volume left out."""
-    count = len(mesh.shape.Solids)
+    count = len(mesh.cad.solids)
     volumes = solid_volumes(mesh.points, mesh.triangles, sides[mesh.triangle_face], count)
     present = np.isin(np.arange(1, count + 1), sides)
-    flat = np.abs(volumes) <= FLAT * mesh.shape.BoundBox.DiagonalLength**3
+    flat = np.abs(volumes) <= FLAT * mesh.cad.diagonal**3
     if flat[present].all():
         name = entity_name(3, int(np.flatnonzero(present)[0]) + 1)
         raise MeshError("plc", "no_volume", "%s encloses no volume" % name, entity=name)

@@ -9,7 +9,7 @@ another are taken as solids with cavities; of faces beside solids nothing is mad
 import numpy as np
 import Part
 
-from .tessellation import incidences
+from .cad_elements import incidences
 
 SEWING = 1e-4  # of the diagonal: how far apart edges may be that are taken as one
 PROBES = (0.21, 0.5, 0.83)  # shares of an edge's range where its distance is measured

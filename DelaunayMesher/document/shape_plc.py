@@ -5,8 +5,6 @@ are meshed one after the other: their meshes do not fit together where they touc
 edges and vertices as the whole shape does.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import Part
 
@@ -31,14 +29,13 @@ class ShapePlc:
 
     def __init__(self, mesh, sides, keep, warnings):
         """mesh: a Tessellation that encloses its solids; sides (F, 2); keep: names of elements that stay."""
-        self.mesh, self.sides, self.keep = mesh, sides, keep
+        self.mesh, self.sides = mesh, sides
+        self.kept = {kind: numbers_of(keep, kind) for kind in ("Vertex", "Edge", "Face")}
         self.contacts = find_contacts(mesh, sides)
-        self.geometry = Geometry(mesh, keep)
+        self.geometry = Geometry(mesh, self.kept)
         self._aliases = {}
         groups = [
-            group
-            for group in groups_of_solids(mesh.shape, sides, self.contacts)
-            if np.isin(group, sides).all()
+            group for group in groups_of_solids(mesh.cad, sides, self.contacts) if np.isin(group, sides).all()
         ]
         self.plcs = [self.plc_of(group) for group in groups]
         warnings = [*warnings, *self.geometry.warnings]
@@ -85,54 +82,62 @@ class ShapePlc:
 
     def plc_of(self, solids):
         """The Plc of some solids (1-based numbers)."""
-        mesh, aliases = self.mesh, Aliases()
+        mesh, cad, aliases = self.mesh, self.mesh.cad, Aliases()
         self._aliases[solids[0]] = aliases
-        local = np.zeros(len(mesh.shape.Solids) + 1, dtype=np.int64)
+        local = np.zeros(len(cad.solids) + 1, dtype=np.int64)
         local[solids] = np.arange(1, len(solids) + 1)
-        sides = local[self.sides]
-        mine, sides = merge_equal_faces(self.contacts.equal, mesh.triangle_face, sides, aliases)
-        mine &= ~self.contacts.folded & sides[mesh.triangle_face].any(axis=1)
+        here, sides = merge_equal_faces(self.contacts.equal, local[self.sides], aliases)
+        mine = (here & sides.any(axis=1))[mesh.triangle_face] & ~self.contacts.folded
         triangles, triangle_face = mesh.triangles[mine], mesh.triangle_face[mine]
-        geometry = self.geometry
-        live = ~geometry.seam[mesh.segment_edge]
-        live &= segments_on_triangles(mesh.segments, triangles, len(mesh.points))
-        segments, segment_edge = merge_coincident_segments(
-            mesh.segments[live], mesh.segment_edge[live], aliases
+        used = np.zeros(len(mesh.points), dtype=bool)
+        used[triangles] = True
+        compact = np.cumsum(used) - 1
+        segments, segment_edge = self.segments_of(triangles, used, aliases)
+        corners, corner_vertex = corner_points(
+            mesh.vertex_point, self.geometry.corner & used[mesh.vertex_point], aliases
         )
-        corners, corner_vertex = corner_points(mesh.vertex_point, geometry.corner, triangles, aliases)
-        plc = Plc(
-            points=mesh.points,
-            triangles=triangles,
+        return Plc(
+            points=mesh.points[used],
+            triangles=compact[triangles],
             triangle_face=triangle_face,
-            segments=segments,
+            segments=compact[segments],
             segment_edge=segment_edge,
-            corners=corners,
+            corners=compact[corners],
             corner_vertex=corner_vertex,
             face_solids=sides,
-            edge_count=len(mesh.edges),
-            vertex_count=len(mesh.vertex_point),
+            edge_count=len(cad.edges),
+            vertex_count=len(cad.vertices),
             solid_count=len(solids),
-            geometry=geometry.of(triangle_face, segment_edge),
+            geometry=self.geometry.of(triangle_face, segment_edge),
             solid_numbers=np.array(solids),
-            cad_solid_count=len(mesh.shape.Solids),
-            kept_faces=indices_of(self.keep, "Face", len(mesh.faces)),
-            kept_edges=indices_of(self.keep, "Edge", len(mesh.edges)),
+            cad_solid_count=len(cad.solids),
+            kept_faces=[number for number in self.kept["Face"] if number < len(cad.faces)],
+            kept_edges=[number for number in self.kept["Edge"] if number < len(cad.edges)],
         )
-        return drop_unused_points(plc)
+
+    def segments_of(self, triangles, used, aliases):
+        """(segments (k, 2), their edges) along triangles, whose points are `used`; see Aliases.edges."""
+        mesh = self.mesh
+        live = ~self.geometry.seam[mesh.segment_edge] & used[mesh.segments].all(axis=1)
+        segments, segment_edge = mesh.segments[live], mesh.segment_edge[live]
+        live = segments_on_triangles(segments, triangles, len(mesh.points))
+        return merge_coincident_segments(segments[live], segment_edge[live], aliases)
 
 
 class Geometry:
     """Exact faces and edges of a tessellated shape, and which of its edges and vertices are features."""
 
-    def __init__(self, mesh, keep):
-        tolerances = [position_tolerance(face) for face in mesh.faces]
-        self.faces = face_records(mesh.faces, mesh.face_nodes, tolerances)
+    def __init__(self, mesh, kept):
+        """kept: {'Vertex', 'Edge', 'Face': 0-based numbers of elements that stay}."""
+        cad = mesh.cad
+        tolerances = [position_tolerance(face) for face in cad.faces]
+        self.faces = face_records(cad, mesh.face_nodes, tolerances)
         doubtful = self.faces[4]
         self.warnings = []
         if doubtful:
             self.warnings.append("no exact surface for %s: its facets are used" % face_names(doubtful))
-        self.seam, self.corner = features(mesh, self.faces[0], keep)
-        self.edges = edge_records(mesh.edges, wanted_edges(mesh, self.seam))
+        self.seam, self.corner = features(mesh, self.faces[0], kept)
+        self.edges = edge_records(cad.edges, wanted_edges(mesh, self.seam))
 
     def of(self, faces, edges):
         """The dict of the core with the splines of some faces and edges only."""
@@ -163,10 +168,10 @@ def only(kinds, spline, records, used):
     return kinds, renumbered, [records[number] for number in numbers.tolist()]
 
 
-def indices_of(names, kind, count):
-    """0-based numbers of the elements of a kind among some names ('Face3', 'Edge1')."""
-    wanted = set(names)
-    return [number for number in range(count) if "%s%d" % (kind, number + 1) in wanted]
+def numbers_of(names, kind):
+    """0-based numbers, ascending, of the elements of a kind among some names ('Face3', 'Edge1')."""
+    endings = [name[len(kind) :] for name in names if name.startswith(kind)]
+    return sorted({int(ending) - 1 for ending in endings if ending.isdecimal() and int(ending) > 0})
 
 
 def apart_warning(touching):
@@ -185,52 +190,39 @@ def position_tolerance(face):
     return max(1e-7, 2.0 * face.getTolerance(1, Part.Edge), 2.0 * face.getTolerance(1, Part.Vertex))
 
 
-def features(mesh, kinds, keep):
+def features(mesh, kinds, kept):
     """(E,) bool: smooth seams to be dropped; (V,) bool: vertices that are features."""
-    seam = np.zeros(len(mesh.edges), dtype=bool)
-    sharp_tip = set()
-    for number, face in mesh.seam_faces.items():
-        smooth = mesh.edge_faces[number] == [face] and seam_is_smooth(
-            mesh.edges[number], mesh.faces[face], kinds[face]
+    cad = mesh.cad
+    seam = np.zeros(len(cad.edges), dtype=bool)
+    for number, face in cad.seam_faces.items():
+        alone = cad.edge_faces[number] == [face] and number not in kept["Edge"]
+        seam[number] = alone and seam_is_smooth(
+            cad.edges[number], cad.faces[face], cad.surfaces[face], kinds[face]
         )
-        seam[number] = smooth and entity_name(1, number) not in keep
-    tips = np.zeros(len(mesh.vertex_point), dtype=bool)
-    touched = np.zeros(int(mesh.vertex_point.max(initial=-1)) + 1, dtype=bool)
-    dropped = np.isin(mesh.segment_edge, np.flatnonzero(seam))
-    ends = mesh.segments[~dropped].reshape(-1)
-    touched[ends[ends < len(touched)]] = True
-    for number, edge in enumerate(mesh.edges):
-        if edge.Degenerated and not all(kinds[face] in (SPHERE, TORUS) for face in mesh.edge_faces[number]):
-            sharp_tip.add(edge.Vertexes[0].hashCode())
-    seams_only = ~touched[mesh.vertex_point]
-    for number, vertex in enumerate(mesh.shape.Vertexes):
-        tips[number] = vertex.hashCode() in sharp_tip or entity_name(0, number) in keep
-    return seam, ~seams_only | tips
+    tips = {
+        edge.Vertexes[0].hashCode()
+        for edge, faces in zip(cad.edges, cad.edge_faces)
+        if edge.Degenerated and not all(kinds[face] in (SPHERE, TORUS) for face in faces)
+    }
+    touched = np.zeros(len(mesh.points), dtype=bool)
+    touched[mesh.segments[~seam[mesh.segment_edge]]] = True
+    corner = touched[mesh.vertex_point]
+    if tips:
+        corner |= [vertex.hashCode() in tips for vertex in cad.vertices]
+    corner[[number for number in kept["Vertex"] if number < len(corner)]] = True
+    return seam, corner
 
 
 def wanted_edges(mesh, seam):
     """(E,) bool: edges that need their curve."""
-    wanted = np.zeros(len(mesh.edges), dtype=bool)
+    wanted = np.zeros(len(mesh.cad.edges), dtype=bool)
     wanted[mesh.segment_edge] = True
     return wanted & ~seam
 
 
-def drop_unused_points(plc):
-    """The same PLC with points that no triangle uses left out."""
-    used, compact = np.unique(plc.triangles, return_inverse=True)
-    return replace(
-        plc,
-        points=plc.points[used],
-        triangles=compact.reshape(-1, 3),
-        segments=np.searchsorted(used, plc.segments),
-        corners=np.searchsorted(used, plc.corners),
-    )
-
-
-def corner_points(vertex_point, is_feature, triangles, aliases):
+def corner_points(vertex_point, is_corner, aliases):
     """(corners, corner_vertex): one vertex per point; vertices that coincide become aliases."""
-    used = np.isin(vertex_point, triangles.reshape(-1)) & is_feature
-    vertices = np.flatnonzero(used)
+    vertices = np.flatnonzero(is_corner)
     corners, first, inverse = np.unique(vertex_point[vertices], return_index=True, return_inverse=True)
     for vertex, kept in zip(vertices.tolist(), vertices[first][inverse.reshape(-1)].tolist()):
         if vertex != kept:

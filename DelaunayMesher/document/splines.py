@@ -36,7 +36,7 @@ def surface_record(surface, ranges):
     return {
         "degree_u": surface.UDegree,
         "degree_v": surface.VDegree,
-        "poles": vectors_to_array(list(itertools.chain.from_iterable(poles))).reshape(nu, nv, 3),
+        "poles": vectors_to_array(itertools.chain.from_iterable(poles), nu * nv).reshape(nu, nv, 3),
         "weights": np.array(surface.getWeights(), dtype=np.float64) if rational else None,
         "knots_u": flat_knots(surface.getUKnots(), surface.getUMultiplicities()),
         "knots_v": flat_knots(surface.getVKnots(), surface.getVMultiplicities()),
@@ -52,7 +52,7 @@ def curve_record(curve, first, last):
         first, last = curve.FirstParameter, curve.LastParameter
     return {
         "degree": curve.Degree,
-        "poles": vectors_to_array(curve.getPoles()),
+        "poles": vectors_to_array(curve.getPoles(), curve.NbPoles),
         "weights": np.array(curve.getWeights(), dtype=np.float64) if curve.isRational() else None,
         "knots": flat_knots(curve.getKnots(), curve.getMultiplicities()),
         "range": (float(max(first, curve.FirstParameter)), float(min(last, curve.LastParameter))),

@@ -24,7 +24,7 @@ def stitch(mesh, sides):
     """(Tessellation, sides (F, 2)) with coincident free edges joined and the faces of each solid agreeing."""
     free = free_segments(mesh, sides)
     if free:
-        mesh = join_edges(mesh, free, STITCH * mesh.shape.BoundBox.DiagonalLength)
+        mesh = join_edges(mesh, free, STITCH * mesh.cad.diagonal)
     return mesh, agreeing(mesh, sides)
 
 
@@ -77,7 +77,7 @@ def join_edges(mesh, free, tolerance):
 
 def nodes_on(mesh, edge, segments, nodes, tolerance):
     """(point, (a, b) the segment beside it, share of the way) of other edges' nodes on an edge."""
-    shape = mesh.edges[edge]
+    shape = mesh.cad.edges[edge]
     own = set(segments.reshape(-1).tolist())
     a, b = mesh.points[segments[:, 0]], mesh.points[segments[:, 1]]
     along = b - a

@@ -16,9 +16,8 @@ from ..polygons import triangulate_facet
 NARROW = 1e-2  # width over length
 
 
-def is_narrow(face):
+def is_narrow(face, surface):
     """Whether a face is a strip of a torus with one outline."""
-    surface = face.Surface
     if not isinstance(surface, Part.Toroid) or len(face.Wires) != 1:
         return False
     u0, u1, v0, v1 = face.ParameterRange

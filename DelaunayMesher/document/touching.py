@@ -14,7 +14,7 @@ from FreeCAD import Vector
 
 from .. import extension
 from ..errors import MeshError, entity_name
-from .tessellation import ShapeIndex
+from .cad_elements import ShapeIndex
 
 SAMPLES = 3  # points of a face that must lie on its twin
 
@@ -53,7 +53,7 @@ def find_contacts(mesh, sides):
     pairs = np.stack([owner[doubled], owner[partner[doubled]]], axis=1)
     order = np.lexsort((pairs[:, 1], pairs[:, 0]))
     starts = np.flatnonzero(np.diff(pairs[order], axis=0, prepend=-1).any(axis=1))
-    twins = find_twins(mesh, sides) if len(mesh.shape.Solids) > 1 else {}
+    twins = find_twins(mesh, sides) if len(mesh.cad.solids) > 1 else {}
     contacts = Contacts([], [], [], np.zeros(len(triangles), dtype=bool))
     for rows in np.split(doubled[order], starts[1:]) if len(starts) else ():
         first, second = int(owner[rows[0]]), int(owner[partner[rows[0]]])
@@ -76,7 +76,7 @@ def find_contacts(mesh, sides):
             contacts.conflicts.append((first, second, place))
         else:
             contacts.equal.append((first, second, mirrored))
-    if len(mesh.shape.Solids) > 1:
+    if len(mesh.cad.solids) > 1:
         contacts.crossing = crossing_faces(mesh, sides, contacts.equal)
     return contacts
 
@@ -100,7 +100,7 @@ def find_twins(mesh, sides):
     for face, keys, directions in zip(faces.tolist(), np.split(key, starts[1:]), np.split(ahead, starts[1:])):
         same = known.setdefault(keys.tobytes(), [])
         for other, its_directions in same:
-            if lies_on(mesh.faces[face], mesh.faces[other], facet_centres(mesh, face)):
+            if lies_on(mesh.cad, face, other, facet_centres(mesh, face)):
                 twins[other, face] = bool(directions[0] != its_directions[0])
                 break
         same.append((face, directions))
@@ -114,22 +114,24 @@ def facet_centres(mesh, face):
     return mesh.points[mesh.triangles[rows]].mean(axis=1)
 
 
-def lies_on(face, other, places):
-    """Whether the points of `face` nearest to some places lie on the other face, within their tolerances."""
+def lies_on(cad, face, other, places):
+    """Whether the points of a face nearest to some places lie on the other face, within their tolerances."""
+    face, other, surface = cad.faces[face], cad.faces[other], cad.surfaces[face]
+    if surface is None:
+        return False
     tolerance = 2.0 * max(face.Tolerance, other.Tolerance, *(edge.Tolerance for edge in other.Edges))
     try:
-        surface = face.Surface
         for place in places.tolist():
             point = surface.value(*surface.parameter(Vector(*place)))
             if other.distToShape(Part.Vertex(point))[0] > tolerance:
                 return False
-    except (RuntimeError, TypeError, ValueError):  # a kind of surface that FreeCAD has no class for
+    except (RuntimeError, TypeError, ValueError):  # OCC finds no nearest point
         return False
     return True
 
 
-def merge_equal_faces(equal, triangle_face, sides, aliases):
-    """(rows to keep (m,) bool, sides) with the second of each equal pair given up; fills `aliases.faces`."""
+def merge_equal_faces(equal, sides, aliases):
+    """(faces to keep (F,) bool, sides) with the second of each equal pair given up; fills `aliases.faces`."""
     sides = sides.copy()
     dropped = np.zeros(len(sides), dtype=bool)
     for first, second, mirrored in equal:
@@ -139,28 +141,30 @@ def merge_equal_faces(equal, triangle_face, sides, aliases):
         sides[first], sides[second] = np.where(sides[first] == 0, other, sides[first]), 0
         aliases.faces[second] = first
         dropped[second] = True
-    return ~dropped[triangle_face], sides
+    return ~dropped, sides
 
 
-def groups_of_solids(shape, sides, contacts):
+def groups_of_solids(cad, sides, contacts):
     """Lists of solids (1-based) that are meshed together: those that share a face, a vertex or equal faces.
 
     Solids with a face in common are always together, the others as long as no two of a group are in conflict.
     Raises MeshError when solids that share a face overlap elsewhere.
     """
-    count = len(shape.Solids)
+    count = len(cad.solids)
     group = np.arange(count + 1)
     for a, b in sides[(sides > 0).all(axis=1)].tolist():
         group[group == group[b]] = group[a]
     for first, second, place in contacts.conflicts:
         if any(group[a] == group[b] for a, b in solid_pairs(sides, first, second)):
             raise overlap(first, second, place)
+    if count == 1:
+        return [[1]]
     enemies = np.zeros((count + 1, count + 1), dtype=bool)
     for first, second in contacts.pairs():
         for a, b in solid_pairs(sides, first, second):
             enemies[a, b] = enemies[b, a] = group[a] != group[b]
     equal = [(sides[first].max(), sides[second].max()) for first, second, _ in contacts.equal]
-    for a, b in [*equal, *solids_with_common_vertices(shape)]:
+    for a, b in [*equal, *solids_with_common_vertices(cad)]:
         if group[a] != group[b] and not enemies[np.ix_(group == group[a], group == group[b])].any():
             group[group == group[b]] = group[a]
     return [(np.flatnonzero(group[1:] == number) + 1).tolist() for number in np.unique(group[1:])]
@@ -171,11 +175,11 @@ def solid_pairs(sides, first, second):
     return [(a, b) for a in sides[first].tolist() for b in sides[second].tolist() if a > 0 and b > 0]
 
 
-def solids_with_common_vertices(shape):
+def solids_with_common_vertices(cad):
     """[(solid, other solid), ...] (1-based) that a vertex of the shape connects."""
-    vertices = ShapeIndex(shape.Vertexes)
+    vertices = ShapeIndex(cad.vertices)
     pairs, first = [], {}
-    for number, solid in enumerate(shape.Solids, 1):
+    for number, solid in enumerate(cad.solids, 1):
         for vertex in solid.Vertexes:
             other = first.setdefault(vertices.find(vertex), number)
             if other != number:

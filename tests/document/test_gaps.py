@@ -12,11 +12,12 @@ from parts import PARTS
 
 from DelaunayMesher import pipeline
 from DelaunayMesher.document import tessellation
+from DelaunayMesher.document.cad_elements import CadElements
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.filling import fill
 from DelaunayMesher.document.plc_from_shape import convert, fault_of
 from DelaunayMesher.document.sewing import with_solids
-from DelaunayMesher.document.tessellation import face_sides, tessellate
+from DelaunayMesher.document.tessellation import tessellate
 from DelaunayMesher.errors import MeshError
 
 
@@ -90,13 +91,13 @@ def test_an_edge_along_several_is_stitched_and_faces_are_turned_to_agree():
 
 def without(shape, face, rows=slice(None)):
     """(Tessellation, sides) of a shape that lacks triangles of a face."""
-    mesh = tessellate(shape, 0.1, 0.3)
+    mesh = tessellate(CadElements(shape), 0.1, 0.3)
     missing = np.zeros(len(mesh.triangles), dtype=bool)
     missing[np.flatnonzero(mesh.triangle_face == face)[rows]] = True
     mesh = replace(mesh, triangles=mesh.triangles[~missing], triangle_face=mesh.triangle_face[~missing])
     if missing.sum() > 1:
         mesh.face_nodes[face] = np.zeros((0, 3))
-    return mesh, face_sides(mesh.faces, mesh.shape.Solids)
+    return mesh, mesh.cad.sides
 
 
 @pytest.mark.parametrize("name", ["bracket", "cylinder", "cone_frustum", "plate"])
@@ -145,8 +146,8 @@ def test_a_face_between_two_solids_is_filled_for_both():
 
 
 def test_nothing_is_filled_where_no_face_is_missing():
-    mesh = tessellate(Part.Solid(Part.Shell(Part.makeBox(10, 10, 10).Faces[:5])), 0.1, 0.3)
-    assert fill(mesh, face_sides(mesh.faces, mesh.shape.Solids))[1] == []
+    mesh = tessellate(CadElements(Part.Solid(Part.Shell(Part.makeBox(10, 10, 10).Faces[:5]))), 0.1, 0.3)
+    assert fill(mesh, mesh.cad.sides)[1] == []
 
 
 def test_arcs_that_touch_in_a_cusp():
@@ -209,16 +210,16 @@ def test_a_solid_that_cannot_be_meshed_is_left_out(monkeypatch):
 
 def test_a_face_that_laps_itself_is_made_from_its_outline(monkeypatch):
     """Its edges lie on the surface's parameters a turn apart; OCC covers it five times then."""
-    turned = SimpleNamespace(ParameterRange=(-0.5 * math.pi, 2 * math.pi, 0.0, 1.0), Surface=Part.Cylinder())
-    assert tessellation.laps_itself(turned)
-    assert not any(map(tessellation.laps_itself, PARTS["torus"]().Faces))
+    turned = SimpleNamespace(ParameterRange=(-0.5 * math.pi, 2 * math.pi, 0.0, 1.0))
+    assert tessellation.laps_itself(turned, Part.Cylinder())
+    assert not any(tessellation.laps_itself(face, face.Surface) for face in PARTS["torus"]().Faces)
     rounded = Part.makeBox(10, 10, 10)
     rounded = rounded.makeFillet(3, [rounded.Edges[0], rounded.Edges[1], rounded.Edges[4]])
     for number, face in enumerate(rounded.Faces):
         monkeypatch.setattr(
             tessellation,
             "laps_itself",
-            lambda other, c=face.CenterOfMass: other.CenterOfMass.isEqual(c, 1e-6),
+            lambda other, _, c=face.CenterOfMass: other.CenterOfMass.isEqual(c, 1e-6),
         )
         plc = convert(rounded).plc
         plc.check()
