@@ -16,6 +16,7 @@ from .cad_elements import CadElements
 from .closed import open_triangles, solid_volumes
 from .filling import fill
 from .shape_plc import ShapePlc, face_names
+from .sheets import part_sheets
 from .stitching import stitch
 from .tessellation import tessellate
 
@@ -70,7 +71,8 @@ def convert(shape, options=None, keep=()):
 
 
 def outward_plc(mesh, sides, keep, warnings):
-    """ShapePlc of a closed tessellation, its solids turned outward."""
+    """ShapePlc of a closed tessellation, thin solids made thick again, all turned outward."""
+    mesh = part_sheets(mesh, sides)
     return ShapePlc(mesh, outward(mesh, sides, warnings), keep, warnings)
 
 

@@ -34,9 +34,9 @@ class ShapePlc:
         self.contacts = find_contacts(mesh, sides)
         self.geometry = Geometry(mesh, self.kept)
         self._aliases = {}
-        groups = [
-            group for group in groups_of_solids(mesh.cad, sides, self.contacts) if np.isin(group, sides).all()
-        ]
+        groups = groups_of_solids(mesh.cad, sides, self.contacts)
+        groups = [[solid for solid in group if (sides == solid).any()] for group in groups]
+        groups = [group for group in groups if group]  # without the solids that were left out
         self.plcs = [self.plc_of(group) for group in groups]
         warnings = [*warnings, *self.geometry.warnings]
         loose = (sides[mesh.triangle_face] == 0).all(axis=1)

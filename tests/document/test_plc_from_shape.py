@@ -9,6 +9,7 @@ from FreeCAD import Matrix, Placement, Rotation, Vector
 from parts import PARTS, blade, lofted
 from scipy.interpolate import BSpline
 
+import DelaunayMesher
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.edge_geometry import CIRCLE, LINE, circle_distances
 from DelaunayMesher.document.face_geometry import CONE, CYLINDER, PLANE, SPHERE, SPLINE, TORUS, distances
@@ -351,3 +352,29 @@ def test_a_twisted_blade_far_larger_than_its_finest_elements(options):
     """Its facets must follow the surface closer than the finest elements need, or strips of it fold."""
     mesh = mesh_shape(blade(), MeshOptions(max_size=9, optimise=False, **options))
     assert dihedral_angles(mesh.points, mesh.tets).min() > 19.99
+
+
+def two_balls(overlap):
+    """Two balls of radius 1, flattened by half, that overlap: three solids, the middle one a lens."""
+    half = Matrix()
+    half.scale(1, 1, 0.5)
+    balls = [Part.makeSphere(1, Vector(x, 0, 0)).transformGeometry(half) for x in (0, 2 - overlap)]
+    return balls[0].generalFuse([balls[1]])[0]
+
+
+@pytest.mark.parametrize("overlap", [0.1, 1e-2, 1e-3, 1e-4, 1e-5])
+def test_a_lens_thinner_than_the_deflection_keeps_its_volume(overlap):
+    converted = convert(two_balls(overlap))
+    plc = converted.plc
+    check_closed(plc)
+    assert len(converted.plcs) == 1 and plc.solid_count == 3
+    exact = np.pi * (overlap / 2) ** 2 * (1 - overlap / 6)
+    assert 0.3 * exact < volumes(plc).min() < 1.01 * exact
+    mesh = DelaunayMesher.mesh(two_balls(overlap), max_size=0.3)
+    assert set(mesh.tet_solid.tolist()) == {1, 2, 3}
+
+
+def test_a_solid_without_volume_does_not_take_its_neighbours_along():
+    converted = convert(two_balls(1e-6))
+    assert any("encloses no volume" in text for text in converted.plc.warnings)
+    assert sorted(converted.plc.solid_numbers.tolist()) == [1, 3]

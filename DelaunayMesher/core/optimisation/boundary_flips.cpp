@@ -73,8 +73,11 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
       normalized(area(mesh_.triangle(triangles[0]))) + normalized(area(mesh_.triangle(triangles[1])));
   turned = {Triangle{a, c, d}, Triangle{b, d, c}};
   if (dot(area(turned[0]), before) < 0) turned = {Triangle{a, d, c}, Triangle{b, c, d}};
-  for (const Triangle& t : turned)
+  for (const Triangle& t : turned) {
     if (dot(normalized(area(t)), normalized(before)) < kNormalTurn) return false;
+    // share_edge() does not see the parts that touch at a pinched point.
+    if (mesh_.find_triangle(t[0], t[1], t[2]) >= 0) return false;
+  }
   if (geometry.is_plane(face)) return true;
   const auto sagitta = [&](Index p, Index q) {
     const Vec3 middle = 0.5 * (mesh_.point(p) + mesh_.point(q));

@@ -132,6 +132,8 @@ bool Inserter::build_triangles() {
             inner || (other != k && mesh_.triangle_face(other) == mesh_.triangle_face(k) &&
                       contains(mesh_.triangle(other), edge[0]) && contains(mesh_.triangle(other), edge[1]));
       if (inner) continue;
+      // Two faces that meet where no CAD edge lies would share a triangle.
+      if (is_rim(edge[0], edge[1])) return false;
       rims_.push_back(edge);
       rim_face_.push_back(mesh_.triangle_face(k));
     }
