@@ -42,19 +42,22 @@ def sheets(mesh, sides):
 
 def lie_apart(mesh, first, second, place):
     """Whether the surfaces of two faces are two near a point."""
-    ends = [
-        FaceShape(mesh.faces[face], mesh.faces[face].Surface, 1.0).nearest(place) for face in (first, second)
-    ]
+    ends = [surface_at(mesh, face).nearest(place) for face in (first, second)]
     if ends[0] is None or ends[1] is None:
         return False
-    return np.linalg.norm(ends[1] - ends[0]) > APART * mesh.shape.BoundBox.DiagonalLength
+    return np.linalg.norm(ends[1] - ends[0]) > APART * mesh.cad.diagonal
+
+
+def surface_at(mesh, face):
+    """The FaceShape of a face."""
+    return FaceShape(mesh.cad.faces[face], mesh.cad.surfaces[face], 1.0)
 
 
 def divided(mesh, face):
     """The Tessellation with all inner edges of a face halved, their middles on its surface."""
     mine = mesh.triangle_face == face
     triangles = [tuple(corners) for corners in mesh.triangles[mine].tolist()]
-    shape = FaceShape(mesh.faces[face], mesh.faces[face].Surface, 1.0)
+    shape = surface_at(mesh, face)
     points, middles = list(mesh.points), {}
     for a, b in sorted(inner_edges(triangles, ())):
         middle = 0.5 * (points[a] + points[b])
