@@ -32,6 +32,8 @@ def face_records(cad, face_nodes, tolerances):
     splines, doubtful = [], []
     for number in np.flatnonzero(kinds == FACETS).tolist():
         face, surface, nodes = cad.faces[number], cad.surfaces[number], face_nodes[number]
+        if not len(nodes):
+            continue  # it has no triangles either
         kinds[number], numbers, record = freeform_record(face, surface, nodes, tolerances[number])
         params[number] = 0.0 if numbers is None else numbers
         if record is not None:

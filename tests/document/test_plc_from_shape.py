@@ -10,9 +10,19 @@ from parts import PARTS, blade, lofted
 from scipy.interpolate import BSpline
 
 import DelaunayMesher
+from DelaunayMesher.document.cad_elements import CadElements
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.edge_geometry import CIRCLE, LINE, circle_distances
-from DelaunayMesher.document.face_geometry import CONE, CYLINDER, PLANE, SPHERE, SPLINE, TORUS, distances
+from DelaunayMesher.document.face_geometry import (
+    CONE,
+    CYLINDER,
+    PLANE,
+    SPHERE,
+    SPLINE,
+    TORUS,
+    distances,
+    face_records,
+)
 from DelaunayMesher.document.mesh_object import mesh_shape
 from DelaunayMesher.document.plc_from_shape import convert, plc_from_shape
 from DelaunayMesher.document.touching import segments_on_triangles
@@ -378,3 +388,10 @@ def test_a_solid_without_volume_does_not_take_its_neighbours_along():
     converted = convert(two_balls(1e-6))
     assert any("encloses no volume" in text for text in converted.plc.warnings)
     assert sorted(converted.plc.solid_numbers.tolist()) == [1, 3]
+
+
+def test_a_spline_face_without_triangles_needs_no_surface():
+    cad = CadElements(lofted())
+    nodes = [np.zeros((0, 3))] * len(cad.faces)
+    kinds, _, spline, splines, doubtful = face_records(cad, nodes, np.full(len(cad.faces), 1e-7))
+    assert (spline == -1).all() and not splines and not doubtful and len(kinds) == len(cad.faces)
