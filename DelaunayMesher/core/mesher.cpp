@@ -58,18 +58,23 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   add("refinement_slivers", static_cast<double>(refinement.slivers));
 }
 
-std::string absorbed_warning(const Absorbed& absorbed) {
+// "Face3, Face7, Edge2 and 5 more"
+std::string names(const std::vector<Index>& faces, const std::vector<Index>& edges = {}) {
   std::string text;
   std::size_t named = 0;
   const auto add = [&](const char* name, const std::vector<Index>& elements) {
     for (const Index i : elements)
       if (++named <= kNamedElements) text += (text.empty() ? "" : ", ") + (name + std::to_string(i + 1));
   };
-  add("Face", absorbed.faces);
-  add("Edge", absorbed.edges);
+  add("Face", faces);
+  add("Edge", edges);
   if (named > kNamedElements) text += " and " + std::to_string(named - kNamedElements) + " more";
-  return "far smaller than the elements, and taken together with what lies beside them: " + text +
-         "; a size given to them, or a minimum size, keeps them";
+  return text;
+}
+
+std::string absorbed_warning(const Absorbed& absorbed) {
+  return "far smaller than the elements, and taken together with what lies beside them: " +
+         names(absorbed.faces, absorbed.edges) + "; a size given to them, or a minimum size, keeps them";
 }
 
 void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
@@ -77,7 +82,8 @@ void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport
     result.warnings.push_back(
         std::to_string(recovery.replaced) +
         " boundary triangles could not be recovered and were replaced by others between the "
-        "same nodes: faces touch or cross each other there");
+        "same nodes: faces touch or cross each other there (" +
+        names(recovery.unrecovered_faces) + ")");
   if (refinement.constrained)
     result.warnings.push_back("in " + std::to_string(refinement.constrained) +
                               " places the mesh is constrained by the boundary instead of Delaunay");

@@ -16,6 +16,7 @@ namespace {
 constexpr double kMostReplaced = 0.01;  // share of triangles that the last resort may replace between solids
 constexpr int kLayerRounds = 3;
 constexpr int kMaxRounds = 60;
+constexpr int kAttempts = 4;  // of splitting, where it fails at some place; the last one does without
 // Rounds with more missing triangles than ever before, and splits per triangle (and in any case), after which
 // splitting is given up: it does not help where faces cross.
 constexpr int kWorseRounds = 2;
@@ -27,14 +28,19 @@ constexpr double kSpacing = 0.04;
 
 class Recovery {
  public:
-  Recovery(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size, Context& context,
-           RecoveryReport& report)
+  // hopeless: boundary points whose triangles are not split.
+  Recovery(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
+           const std::vector<char>& hopeless, Context& context, RecoveryReport& report)
       : tets_(mesh.tets),
         complex_(mesh.boundary),
         geometry_(geometry),
         size_(size),
+        hopeless_(hopeless),
         context_(context),
-        report_(report) {}
+        report_(report),
+        origin_(mesh.tets.points().size()) {
+    std::iota(origin_.begin(), origin_.end(), 0);
+  }
 
   // missing: the labelled triangles that are no faces yet.  Returns those that could not be recovered.
   std::vector<Index> run(std::vector<Index> missing) {
@@ -68,6 +74,14 @@ class Recovery {
     for (const Index t : missing_)
       if (is_missing(t)) left.push_back(t);
     return left;
+  }
+
+  // Corners of the triangles, or where a corner is new the point that it comes from.
+  std::vector<Index> origins(const std::vector<Index>& triangles) const {
+    std::vector<Index> found;
+    for (const Index t : triangles)
+      for (const Index v : complex_.corners(t)) found.push_back(origin_[v]);
+    return found;
   }
 
  private:
@@ -137,6 +151,7 @@ class Recovery {
 
   bool split(Index t) {
     const Triangle q = complex_.corners(t);
+    if (hopeless_[origin_[q[0]]] || hopeless_[origin_[q[1]]] || hopeless_[origin_[q[2]]]) return false;
     Index sa = -1, sb = -1;
     double longest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -322,6 +337,7 @@ class Recovery {
     }
     const Index v = tets_.insert(p, cavity_);
     edge_at_.push_back(edge);
+    origin_.push_back(origin_[near]);
     for (const Index t : touched_) {
       const Triangle& q = complex_.corners(t);
       if (find_face(tets_, q[0], q[1], q[2]) >= 0) continue;
@@ -345,13 +361,46 @@ class Recovery {
   BoundaryComplex& complex_;
   const Geometry& geometry_;
   const SizeField& size_;
+  const std::vector<char>& hopeless_;
   Context& context_;
   RecoveryReport& report_;
   std::vector<double> edge_at_;  // per point
+  std::vector<Index> origin_;    // per point: itself, or for a new one a point of the triangle it was put in
   std::vector<char> present_;    // per labelled triangle: is it a face of the triangulation?
   std::vector<Index> missing_, later_, stuck_, touched_;
   Cavity cavity_;
 };
+
+// Splitting is of no use where faces cross or touch: it only makes more triangles that cross, and with them
+// bad elements.  So where it fails it is taken back, and everything is done over without it thereabouts.
+std::vector<Index> recover(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
+                           const std::vector<Index>& missing, Context& context, RecoveryReport& report) {
+  if (missing.empty()) return {};
+  const LabelledTriangulation start = mesh;
+  const RecoveryReport start_report = report;
+  std::vector<char> hopeless(mesh.tets.points().size(), 0);
+  for (int attempt = 1;; ++attempt) {
+    Recovery recovery(mesh, geometry, size, hopeless, context, report);
+    const std::vector<Index> left = recovery.run(missing);
+    bool more = false;
+    for (const Index v : recovery.origins(left))
+      for (const Index t : start.boundary.triangles_at(v))
+        for (const Index w : start.boundary.corners(t)) more |= !hopeless[w], hopeless[w] = 1;
+    if (!more) return left;
+    if (attempt + 1 == kAttempts) hopeless.assign(hopeless.size(), 1);
+    mesh = start;
+    report = start_report;
+  }
+}
+
+// Their CAD faces, ascending.
+std::vector<Index> faces_of(const BoundaryComplex& boundary, const std::vector<Index>& triangles) {
+  std::vector<Index> faces;
+  for (const Index t : triangles) faces.push_back(boundary.face(t));
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
 
 // Do shared faces connect all solids?
 bool is_connected(const Plc& plc) {
@@ -412,7 +461,8 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
     mesh = triangulate(surface, plc, context);
     missing = label_faces(mesh);
   }
-  missing = Recovery(mesh, geometry, size, context, report).run(std::move(missing));
+  missing = recover(mesh, geometry, size, missing, context, report);
+  report.unrecovered_faces = faces_of(mesh.boundary, missing);
   if (!missing.empty() || !tag_solids(mesh)) report.replaced = partition_solids(mesh, missing);
   // Touching solids whose faces do not match: the caller can mesh them apart, unless shared faces connect
   // them.

@@ -8,7 +8,7 @@
 // sides, every tetrahedron's tag is its solid (0 = outside), and tags change exactly at marked faces.
 // Cost: one pass over the tetrahedra, then work proportional to what is missing.
 // Limits: splitting stops at a floor relative to the size; what is then missing is taken from the tetrahedra
-// (boundary/partition.h) and reported.
+// (boundary/partition.h) and reported.  Where faces cross or touch splitting cannot help and is taken back.
 #pragma once
 
 #include "base/context.h"
@@ -19,8 +19,9 @@ namespace dm {
 
 struct RecoveryReport {
   Index missing_at_start = 0, flips = 0, segment_splits = 0, triangle_splits = 0;
-  Index layer_points = 0;  // moved or made where sheets of the boundary are close to each other
-  Index replaced = 0;      // boundary triangles taken from the tetrahedra: the last resort
+  Index layer_points = 0;                // moved or made where sheets of the boundary are close to each other
+  Index replaced = 0;                    // boundary triangles taken from the tetrahedra: the last resort
+  std::vector<Index> unrecovered_faces;  // CAD faces of the triangles that made this necessary, ascending
 };
 
 // Throws Failure("boundary", "repeated_point" | "leak", ...).

@@ -336,3 +336,18 @@ TEST_CASE("recovery: very obtuse triangles in a narrow strip are split where the
   }
   CHECK(area == doctest::Approx(6 + 4 * StripBox::kWidth).epsilon(1e-9));
 }
+
+TEST_CASE("recovery: where faces cross, no points are put in and the faces are named") {
+  Case c{"two boxes that cross, one solid", {}, 0.5};
+  shapes::box_walls(c.shape, {0, 0, 0}, {4, 4, 4}, 1, false, 0);
+  shapes::box_walls(c.shape, {1.3, 1.1, 2.2}, {2.9, 2.7, 6.1}, 1, false, 0);
+  Stages stages(c);
+  RecoveryReport report;
+  const auto mesh =
+      recover_boundary(stages.surface, c.shape.plc, stages.geometry, stages.size, stages.context, report);
+  check_boundary(mesh);
+  CHECK(report.replaced > 0);
+  CHECK(report.segment_splits + report.triangle_splits == 0);
+  CHECK(std::binary_search(report.unrecovered_faces.begin(), report.unrecovered_faces.end(), 5));
+  CHECK(report.unrecovered_faces.back() >= 6);
+}
