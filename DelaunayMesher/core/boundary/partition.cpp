@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "boundary/winding.h"
+
 namespace dm {
 
 namespace {
@@ -15,14 +17,16 @@ class Partition {
 
   Index run(const std::vector<Index>& missing) {
     collect_faces_at_points();
+    measure_windings();
+    find_near(missing);
     for (const Index t : missing)
       if (complex_.alive(t)) complex_.remove(t);
-    claim();
-    spread();
+    tag_rooms();
     empty_impossible_contacts();
     const Index replaced = drop_labels_inside() + label_interfaces();
     drop_repeated_labels();
     complex_.drop_bare_segments();
+    free_bare_points();
     return replaced;
   }
 
@@ -41,41 +45,118 @@ class Partition {
     }
   }
 
-  // Tetrahedra on labelled faces take the solid that the label says; the majority where labels disagree.
-  void claim() {
-    for (Index t = 0; t < tets_.slot_count(); ++t) {
-      if (tets_.is_free(t)) continue;
-      tets_.set_tag(t, tets_.is_ghost(t) ? 0 : kUnknown);
-      if (tets_.is_ghost(t)) queue_.push_back(t);
+  void measure_windings() {
+    std::map<Index, std::vector<Triangle>> outside;  // of a solid: its surface
+    for (Index t = 0; t < complex_.slot_count(); ++t) {
+      if (!complex_.alive(t)) continue;
+      const auto [behind, front] = complex_.solids(t);
+      const auto [a, b, c] = complex_.corners(t);
+      if (behind != 0) outside[behind].push_back({a, b, c});
+      if (front != 0) outside[front].push_back({a, c, b});
     }
+    for (auto& [solid, triangles] : outside)
+      windings_.emplace_back(solid, WindingNumber(tets_.points(), std::move(triangles)));
+  }
+
+  // Tetrahedra that a missing triangle may pass through.
+  void find_near(const std::vector<Index>& missing) {
+    std::vector<Box> boxes;
+    for (const Index t : missing) {
+      boxes.emplace_back();
+      for (const Index v : complex_.corners(t)) boxes.back().add(tets_.point(v));
+    }
+    const BoxTree tree(boxes);
+    near_.assign(tets_.slot_count(), 0);
     for (Index t = 0; t < tets_.slot_count(); ++t) {
-      if (tets_.is_free(t) || tets_.is_ghost(t) || !tets_.marks(t)) continue;
-      std::array<Index, 4> claims;
-      int n = 0;
-      for (int i = 0; i < 4; ++i) {
-        if (!tets_.marked(t, i)) continue;
-        const Index label = label_of(mesh_, t, i);
-        const bool front = corner_in_front(tets_.corners(t), i, complex_.corners(label));
-        claims[n++] = complex_.solids(label)[front ? 1 : 0];
-      }
-      std::sort(claims.begin(), claims.begin() + n);
-      tets_.set_tag(t, static_cast<std::uint16_t>(claims[n / 2]));
-      queue_.push_back(t);
+      if (tets_.is_free(t) || tets_.is_ghost(t)) continue;
+      Box box;
+      for (const Index v : tets_.corners(t)) box.add(tets_.point(v));
+      near_[t] = overlaps_any(tree, boxes, box);
     }
   }
 
-  void spread() {
-    for (std::size_t k = 0; k < queue_.size(); ++k) {
-      const Index t = queue_[k];
+  static bool overlaps_any(const BoxTree& tree, const std::vector<Box>& boxes, const Box& box) {
+    std::vector<Index> stack;
+    if (!tree.empty()) stack.push_back(0);
+    while (!stack.empty()) {
+      const BoxTree::Node& node = tree.nodes()[stack.back()];
+      stack.pop_back();
+      if (!node.box.overlaps(box)) continue;
+      if (node.count == 0) stack.insert(stack.end(), {node.first, node.first + 1});
+      for (Index k = node.first; k < node.first + node.count; ++k)
+        if (boxes[tree.order()[k]].overlaps(box)) return true;
+    }
+    return false;
+  }
+
+  // Rooms between labelled faces and away from missing ones: where the walls agree a room is of the solid
+  // that they say, else of that whose surface winds round a place in it.
+  void tag_rooms() {
+    for (Index t = 0; t < tets_.slot_count(); ++t)
+      if (!tets_.is_free(t)) tets_.set_tag(t, kUnknown);
+    std::vector<Index> room;
+    for (Index t = 0; t < tets_.slot_count(); ++t) {
+      if (tets_.is_free(t) || tets_.tag(t) != kUnknown) continue;
+      Index solid = find_room(t, room);
+      if (solid < 0) solid = solid_round(largest(room));
+      for (const Index tet : room)
+        tets_.set_tag(tet, static_cast<std::uint16_t>(tets_.is_ghost(tet) ? 0 : solid));
+    }
+  }
+
+  // Its tetrahedra are tagged as outside for now; one that a missing triangle may pass through is a room of
+  // its own.  Returns the solid that all walls say, or -1.
+  Index find_room(Index start, std::vector<Index>& room) {
+    Index solid = -1;
+    bool agree = true;
+    const auto claim = [&](Index says) {
+      agree &= solid < 0 || solid == says;
+      solid = says;
+    };
+    room.assign(1, start);
+    tets_.set_tag(start, 0);
+    if (near_[start]) return -1;
+    for (std::size_t k = 0; k < room.size(); ++k) {
+      const Index t = room[k];
+      if (tets_.is_ghost(t)) claim(0);
       for (int i = 0; i < 4; ++i) {
         const Index n = tets_.neighbour(t, i) / 4;
-        if (tets_.marked(t, i) || tets_.tag(n) != kUnknown) continue;
-        tets_.set_tag(n, tets_.tag(t));
-        queue_.push_back(n);
+        if (!tets_.marked(t, i)) {
+          if (near_[n] || tets_.tag(n) != kUnknown) continue;
+          tets_.set_tag(n, 0);
+          room.push_back(n);
+        } else if (!tets_.is_ghost(t)) {
+          const Index label = label_of(mesh_, t, i);
+          claim(complex_.solids(label)[corner_in_front(tets_.corners(t), i, complex_.corners(label))]);
+        }
       }
     }
-    for (Index t = 0; t < tets_.slot_count(); ++t)
-      if (!tets_.is_free(t) && tets_.tag(t) == kUnknown) tets_.set_tag(t, 0);
+    return agree ? solid : -1;
+  }
+
+  Index largest(const std::vector<Index>& room) const {
+    Index found = room[0];
+    double most = -1;
+    for (const Index t : room) {
+      if (tets_.is_ghost(t)) continue;
+      const auto [a, b, c, d] = tets_.corners(t);
+      const Vec3& p = tets_.point(a);
+      const double volume = std::abs(dot(area_vector(p, tets_.point(b), tets_.point(c)), tets_.point(d) - p));
+      if (volume > most) most = volume, found = t;
+    }
+    return found;
+  }
+
+  Index solid_round(Index t) const {
+    const auto [a, b, c, d] = tets_.corners(t);
+    const Vec3 middle = 0.25 * (tets_.point(a) + tets_.point(b) + tets_.point(c) + tets_.point(d));
+    Index solid = 0;
+    double most = 0.5;
+    for (const auto& [number, winding] : windings_) {
+      const double w = winding.at(middle);
+      if (w > most) most = w, solid = number;
+    }
+    return solid;
   }
 
   bool can_meet(Index a, Index b) const {
@@ -175,12 +256,19 @@ class Partition {
     }
   }
 
+  // Points that lie inside a solid now, where it overlaps itself.
+  void free_bare_points() {
+    for (Index v = 0; v < static_cast<Index>(faces_at_.size()); ++v)
+      if (complex_.on_boundary(v) && complex_.triangles_at(v).empty()) complex_.set_entity(v, {3, 0});
+  }
+
   LabelledTriangulation& mesh_;
   Triangulation& tets_;
   BoundaryComplex& complex_;
   std::vector<std::vector<Index>> faces_at_;
   std::map<Index, std::array<Index, 2>> solids_of_;
-  std::vector<Index> queue_;
+  std::vector<std::pair<Index, WindingNumber>> windings_;  // of solids
+  std::vector<char> near_;                                 // by tetrahedron
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMostReplaced = 0.01;  // share of triangles that the last resort may replace between solids
 constexpr int kLayerRounds = 3;
 constexpr int kMaxRounds = 60;
-constexpr int kAttempts = 4;  // of splitting, where it fails at some place; the last one does without
+constexpr int kAttempts = 5;  // of splitting, where it fails at some place; the last one does without
 // Rounds with more missing triangles than ever before, and splits per triangle (and in any case), after which
 // splitting is given up: it does not help where faces cross.
 constexpr int kWorseRounds = 2;
@@ -63,8 +63,13 @@ class Recovery {
       stuck_.clear();
       for (const Index t : work)
         if (is_missing(t) && !flip(t)) later_.push_back(t);
-      for (const Index t : later_)
-        if (is_missing(t) && (splits() > most_splits || !split(t))) stuck_.push_back(t);
+      for (const Index t : later_) {
+        if (!is_missing(t)) continue;
+        if (splits() > most_splits || !split(t))
+          stuck_.push_back(t);
+        else if (is_missing(t))
+          missing_.push_back(t);  // a segment near it was split
+      }
       later_.clear();
       if (missing_.empty() && !stuck_.empty()) break;
       missing_.insert(missing_.end(), stuck_.begin(), stuck_.end());
@@ -371,6 +376,24 @@ class Recovery {
   Cavity cavity_;
 };
 
+// Marks the points, and those joined to them by so many edges; false when all were marked before.
+bool mark_round(const BoundaryComplex& boundary, std::vector<Index> points, int edges,
+                std::vector<char>& marked) {
+  bool more = false;
+  for (; edges > 0; --edges) {
+    std::vector<Index> round;
+    for (const Index v : points)
+      for (const Index t : boundary.triangles_at(v))
+        for (const Index w : boundary.corners(t)) {
+          if (marked[w]) continue;
+          marked[w] = more = true;
+          round.push_back(w);
+        }
+    points = std::move(round);
+  }
+  return more;
+}
+
 // Splitting is of no use where faces cross or touch: it only makes more triangles that cross, and with them
 // bad elements.  So where it fails it is taken back, and everything is done over without it thereabouts.
 std::vector<Index> recover(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
@@ -382,11 +405,7 @@ std::vector<Index> recover(LabelledTriangulation& mesh, const Geometry& geometry
   for (int attempt = 1;; ++attempt) {
     Recovery recovery(mesh, geometry, size, hopeless, context, report);
     const std::vector<Index> left = recovery.run(missing);
-    bool more = false;
-    for (const Index v : recovery.origins(left))
-      for (const Index t : start.boundary.triangles_at(v))
-        for (const Index w : start.boundary.corners(t)) more |= !hopeless[w], hopeless[w] = 1;
-    if (!more) return left;
+    if (!mark_round(start.boundary, recovery.origins(left), attempt, hopeless)) return left;
     if (attempt + 1 == kAttempts) hopeless.assign(hopeless.size(), 1);
     mesh = start;
     report = start_report;

@@ -337,7 +337,7 @@ TEST_CASE("recovery: very obtuse triangles in a narrow strip are split where the
   CHECK(area == doctest::Approx(6 + 4 * StripBox::kWidth).epsilon(1e-9));
 }
 
-TEST_CASE("recovery: where faces cross, no points are put in and the faces are named") {
+TEST_CASE("recovery: where faces cross, no points are put in, and the solid is what they enclose together") {
   Case c{"two boxes that cross, one solid", {}, 0.5};
   shapes::box_walls(c.shape, {0, 0, 0}, {4, 4, 4}, 1, false, 0);
   shapes::box_walls(c.shape, {1.3, 1.1, 2.2}, {2.9, 2.7, 6.1}, 1, false, 0);
@@ -350,4 +350,10 @@ TEST_CASE("recovery: where faces cross, no points are put in and the faces are n
   CHECK(report.segment_splits + report.triangle_splits == 0);
   CHECK(std::binary_search(report.unrecovered_faces.begin(), report.unrecovered_faces.end(), 5));
   CHECK(report.unrecovered_faces.back() >= 6);
+  const double both = 4 * 4 * 4 + 1.6 * 1.6 * (6.1 - 4);
+  CHECK(solid_volume(mesh, 1) == doctest::Approx(both).epsilon(0.01));
+  int bare = 0;
+  for (Index v = 0; v < mesh.tets.vertex_count(); ++v)
+    bare += mesh.boundary.on_boundary(v) && mesh.boundary.triangles_at(v).empty();
+  CHECK(bare == 0);
 }
