@@ -1,9 +1,11 @@
 """A CAD file read by a process of its own, so that FreeCAD's 100 MB are gone before meshing starts.
 
 Idea: the process reads the shape while this one still loads its own modules, takes the options from its
-standard input, converts the shape and hands back the PLCs, pickled. A crash of FreeCAD becomes an InputError.
+standard input, converts the shape and hands back the PLCs, pickled; then it ends, unless a PLC has solids
+that could be meshed one by one. A crash of FreeCAD becomes an InputError.
 """
 
+import contextlib
 import os
 import pickle
 import signal
@@ -30,7 +32,7 @@ class CadProcess:
 
     def __init__(self, path):
         """Starts reading."""
-        self.path, self.options, self.plcs, self.parted = path, None, [], []
+        self.path, self.plcs = path, []
         package = os.path.dirname(os.path.abspath(__file__))
         folders = [os.path.dirname(package), os.environ.get("PYTHONPATH")]
         self.process = subprocess.Popen(
@@ -47,6 +49,8 @@ class CadProcess:
         self.process.kill()
         self.process.wait()
         self.process.stdout.close()
+        with contextlib.suppress(OSError):  # what it did not read any more
+            self.process.stdin.close()
 
     def wait(self):
         """Wait until the file is read; raises InputError."""
@@ -54,28 +58,23 @@ class CadProcess:
 
     def convert(self, options):
         """The PLCs; raises MeshError."""
-        self.options = options
-        self.plcs = self._ask()
+        self.plcs = self._ask(options)
         return list(self.plcs)
 
     def apart(self, plc):
-        """As ShapePlc.apart(), by another process."""
+        """As ShapePlc.apart()."""
+        if plc.solid_count == 1:
+            return []
         place = next(index for index, item in enumerate(self.plcs) if item is plc)
-        with CadProcess(self.path) as again:
-            again.options, again.parted = self.options, [*self.parted, place]
-            again.wait()
-            pieces = again._ask()
+        pieces = self._ask(place)
         if pieces:
-            self.parted.append(place)
             self.plcs[place : place + 1] = pieces
         return pieces
 
-    def _ask(self):
-        try:
-            pickle.dump((self.options, self.parted), self.process.stdin)
-            self.process.stdin.close()
-        except OSError:  # it has died
-            pass
+    def _ask(self, question):
+        with contextlib.suppress(OSError):  # it has died
+            pickle.dump(question, self.process.stdin)
+            self.process.stdin.flush()
         return self._answer()
 
     def _answer(self):
@@ -88,21 +87,19 @@ class CadProcess:
         return answer
 
 
-def serve(path, answers):
-    """Read, convert, answer: what the process does."""
+def serve(path, questions, answers):
+    """Read, convert, answer: what the process does. It stays as long as there are solids to take apart."""
     from . import document
 
     try:
         notes = []
         shape = document.read_shape(path, notes)
         _send(None, answers)
-        options, parted = pickle.load(sys.stdin.buffer)
-        converted = document.convert(shape, options)
+        converted = document.convert(shape, pickle.load(questions))
         converted.plcs[0].warnings[:0] = notes
-        result = converted.plcs
-        for place in parted:
-            result = converted.apart(converted.plcs[place])
-        _send(result, answers)
+        _send(converted.plcs, answers)
+        while any(plc.solid_count > 1 for plc in converted.plcs):
+            _send(converted.apart(converted.plcs[pickle.load(questions)]), answers)
     except MeshError as error:
         _send(error, answers)
     except EOFError:  # nobody wants to know any more
@@ -118,4 +115,4 @@ if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started it ends it
     with os.fdopen(os.dup(1), "wb") as channel:
         os.dup2(2, 1)  # whatever OCC prints
-        serve(sys.argv[1], channel)
+        serve(sys.argv[1], sys.stdin.buffer, channel)

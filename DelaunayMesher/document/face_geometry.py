@@ -16,6 +16,9 @@ from .tessellation import ONE_TURN
 
 FACETS, PLANE, CYLINDER, CONE, SPHERE, TORUS, SPLINE = range(7)
 PARAMETERS = 8  # origin (3), axis (3), a, b
+NOTHING = (0.0,) * PARAMETERS
+SAME = 1e-7  # mm
+PARALLEL = 1e-9  # cosine
 
 
 def face_records(cad, face_nodes, tolerances):
@@ -92,7 +95,46 @@ def analytic_numbers(surface):
         return TORUS, (*surface.Center, *surface.Axis, surface.MajorRadius, surface.MinorRadius)
     if isinstance(surface, Part.Cone):
         return CONE, (*surface.Apex, *surface.Axis, abs(surface.SemiAngle), 0.0)
-    return FACETS, (0.0,) * PARAMETERS
+    if isinstance(surface, Part.SurfaceOfRevolution):
+        return revolved_numbers(surface)
+    return FACETS, NOTHING
+
+
+def revolved_numbers(surface):
+    """As analytic_numbers(), of a surface of revolution (IGES has no other): that of a line or an arc in a
+    plane with the axis."""
+    profile, origin, axis = surface.BasisCurve, surface.Location, surface.Direction
+    if isinstance(profile, Part.LineSegment):
+        return revolved_line(profile.StartPoint - origin, profile.EndPoint - origin, origin, axis)
+    if not isinstance(profile, (Part.ArcOfCircle, Part.Circle)):
+        return FACETS, NOTHING
+    height = (profile.Center - origin).dot(axis)
+    centre = origin + axis * height
+    outward = profile.Center - centre
+    if abs(profile.Axis.dot(axis)) > PARALLEL or abs(profile.Axis.dot(outward)) > SAME:
+        return FACETS, NOTHING
+    if outward.Length <= SAME:
+        return SPHERE, (*centre, 0.0, 0.0, 1.0, profile.Radius, 0.0)
+    if outward.Length > profile.Radius:
+        return TORUS, (*centre, *axis, outward.Length, profile.Radius)
+    return FACETS, NOTHING
+
+
+def revolved_line(start, end, origin, axis):
+    """As analytic_numbers(), of a line, from and to places relative to the origin, about an axis."""
+    low, high = start.dot(axis), end.dot(axis)
+    first, last = start - axis * low, end - axis * high
+    outward = first if first.Length > last.Length else last
+    if outward.Length <= SAME or first.cross(last).Length > SAME * outward.Length:
+        return FACETS, NOTHING
+    radii = [side.dot(outward) / outward.Length for side in (first, last)]
+    if abs(radii[1] - radii[0]) <= SAME:
+        return CYLINDER, (*origin, *axis, 0.5 * sum(radii), 0.0)
+    if abs(high - low) <= SAME:
+        return PLANE, (*(origin + axis * (0.5 * (low + high))), *axis, 0.0, 0.0)
+    slope = (radii[1] - radii[0]) / (high - low)
+    apex = origin + axis * (low - radii[0] / slope)
+    return CONE, (*apex, *axis, abs(np.arctan(slope)), 0.0)
 
 
 def confirmed(kinds, params, face_nodes, tolerances):

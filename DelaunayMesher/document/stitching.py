@@ -155,9 +155,16 @@ def divide(corners, inserted):
             return [
                 smaller
                 for piece in pieces
-                for smaller in divide(piece, {key: inserted[key] for key in inserted if c in key})
+                for smaller in divide(
+                    piece, {key: inserted[key] for key in ends(c, piece) if key in inserted}
+                )
             ]
     return [tuple(corners)]
+
+
+def ends(corner, piece):
+    """The two sides of a triangle at a corner, as (lower point, higher point)."""
+    return [(min(corner, other), max(corner, other)) for other in piece if other != corner]
 
 
 def divided_segments(mesh, inserted):

@@ -42,13 +42,26 @@ def test_same_mesh_as_in_this_process():
 
 def test_solids_apart(two_boxes):
     options = MeshOptions(max_size=4)
+    converted = document.convert(document.read_shape(two_boxes), options)
+    assert len(converted.plcs) == 1
+    here = converted.apart(converted.plcs[0])
     with CadProcess(two_boxes) as source:
         source.wait()
+        os.remove(two_boxes)  # it is not read twice
         plcs = source.convert(options)
-    converted = document.convert(document.read_shape(two_boxes), options)
-    assert len(plcs) == len(converted.plcs) == 1 and plcs[0].solid_count == 2
-    for pieces in (source.apart(plcs[0]), converted.apart(converted.plcs[0])):
+        assert len(plcs) == 1 and plcs[0].solid_count == 2
+        there = source.apart(plcs[0])
+    for pieces in (here, there):
         assert [piece.solid_numbers.tolist() for piece in pieces] in ([], [[1], [2]])
+    assert len(here) == len(there)
+
+
+def test_the_process_ends_when_nothing_can_be_taken_apart():
+    with CadProcess(BRACKET) as source:
+        source.wait()
+        plc = source.convert(MeshOptions(max_size=8))[0]
+        assert source.process.wait(timeout=20) == 0
+        assert source.apart(plc) == []
 
 
 def test_errors_come_back(tmp_path):

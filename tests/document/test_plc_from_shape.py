@@ -16,14 +16,17 @@ from DelaunayMesher.document.edge_geometry import CIRCLE, LINE, circle_distances
 from DelaunayMesher.document.face_geometry import (
     CONE,
     CYLINDER,
+    FACETS,
     PLANE,
     SPHERE,
     SPLINE,
     TORUS,
+    analytic_records,
     distances,
     face_records,
 )
 from DelaunayMesher.document.mesh_object import mesh_shape
+from DelaunayMesher.document.patch import FaceShape
 from DelaunayMesher.document.plc_from_shape import convert, plc_from_shape
 from DelaunayMesher.document.touching import segments_on_triangles
 from DelaunayMesher.errors import MeshError
@@ -84,6 +87,44 @@ def test_kinds_of_faces():
     assert kinds(Part.makeSphere(1)) == [SPHERE]
     assert kinds(Part.makeTorus(3, 1)) == [TORUS]
     assert kinds(lofted()) == [PLANE, PLANE, SPLINE]
+
+
+def arc(centre, radius, normal, first, last):
+    return Part.ArcOfCircle(Part.Circle(centre, normal, radius), first, last)
+
+
+@pytest.mark.parametrize(
+    "kind, profile",
+    [
+        (CYLINDER, Part.LineSegment(Vector(3, 0, 1), Vector(3, 0, 5))),
+        (CONE, Part.LineSegment(Vector(3, 0, 1), Vector(2, 0, 5))),
+        (PLANE, Part.LineSegment(Vector(3, 0, 1), Vector(2, 0, 1))),
+        (SPHERE, arc(Vector(0, 0, 2), 4.0, Vector(0, 1, 0), -1.0, 1.0)),
+        (TORUS, arc(Vector(5, 0, 2), 2.0, Vector(0, 1, 0), 0.0, 2.0)),
+        (FACETS, Part.LineSegment(Vector(3, 0, 1), Vector(2, 1, 5))),  # a hyperboloid
+        (FACETS, arc(Vector(1, 0, 2), 2.0, Vector(0, 1, 0), 0.0, 2.0)),  # a torus that crosses itself
+        (FACETS, arc(Vector(5, 0, 2), 2.0, Vector(1, 1, 0), 0.0, 2.0)),  # tilted
+        (FACETS, Part.Ellipse(Vector(5, 0, 2), 2.0, 1.0)),
+    ],
+)
+def test_surfaces_of_revolution_are_recognised(kind, profile):
+    turn = Placement(Vector(7, -3, 2), Rotation(Vector(1, 2, 3), 50.0)).toMatrix()
+    profile.transform(turn)
+    axis = turn.multVec(Vector(0, 0, 1)) - turn.multVec(Vector())
+    surface = Part.SurfaceOfRevolution(profile, turn.multVec(Vector(0, 0, -4)), axis)
+    nodes = np.array([surface.value(u, v) for u in (0.1, 2.0, 4.5) for v in (0.0, 0.4, 0.9)])
+    kinds, params = analytic_records([surface], [nodes])
+    assert kinds.tolist() == [kind]
+    if kind != FACETS:
+        assert np.abs(distances(kind, params[0], nodes)).max() < 1e-9
+
+
+def test_the_foot_of_a_point_is_that_of_opencascade():
+    for face in lofted().Faces:
+        shape = FaceShape(face, face.Surface, 1.0)
+        for place in (Vector(1.0, 2.0, 3.0), face.CenterOfMass + Vector(0.1, 0.2, -0.1)):
+            exact = face.Surface.value(*face.Surface.parameter(place))
+            assert face.Surface.value(*shape.foot(place)).isEqual(exact, 1e-5)
 
 
 def test_a_flat_spline_face_is_a_plane():
