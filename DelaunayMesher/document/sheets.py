@@ -28,24 +28,26 @@ def part_sheets(mesh, sides):
 def sheets(mesh, sides):
     """Numbers of the faces with a triangle that another face on the same solid has as well."""
     owner, partner = mesh.triangle_face, coincident_triangles(mesh.triangles)
-    found = set()
+    found, surfaces = set(), {}
     for row in np.flatnonzero(partner > np.arange(len(partner))).tolist():
         first, second = int(owner[row]), int(owner[partner[row]])
         common = set(sides[first].tolist()) & set(sides[second].tolist())
         open_both = 0 in sides[first] and 0 in sides[second]  # nothing on the other side: a sliver
         if first != second and common - {0} and not open_both and not {first, second} <= found:
             centre = mesh.points[mesh.triangles[row]].mean(axis=0)
-            if lie_apart(mesh, first, second, centre):
+            for face in {first, second} - surfaces.keys():
+                surfaces[face] = surface_at(mesh, face)
+            if lie_apart(surfaces[first], surfaces[second], centre, APART * mesh.cad.diagonal):
                 found |= {first, second}
     return found
 
 
-def lie_apart(mesh, first, second, place):
-    """Whether the surfaces of two faces are two near a point."""
-    ends = [surface_at(mesh, face).nearest(place) for face in (first, second)]
+def lie_apart(first, second, place, distance):
+    """Whether the points of two FaceShapes nearest to a place are farther apart than a distance."""
+    ends = first.nearest(place), second.nearest(place)
     if ends[0] is None or ends[1] is None:
         return False
-    return np.linalg.norm(ends[1] - ends[0]) > APART * mesh.cad.diagonal
+    return np.linalg.norm(ends[1] - ends[0]) > distance
 
 
 def surface_at(mesh, face):
