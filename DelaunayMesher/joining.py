@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 
+from .merge_warnings import merged
+
 OWN = ("point_dimension", "point_entity", "tet_solid", "triangle_face", "line_edge")
 SOLID = 3  # dimension
 
@@ -36,7 +38,7 @@ def join(results, plcs):
     }
     joined["seconds"] = list(totals(result["seconds"] for result in results).items())
     joined["statistics"] = totals(dict(result["statistics"]).items() for result in results)
-    joined["warnings"] = list(dict.fromkeys(text for result in results for text in result["warnings"]))
+    joined["warnings"] = merged(text for result in results for text in result["warnings"])
     return middles_last(joined)
 
 
