@@ -11,8 +11,12 @@ constexpr double kRounding = 1e-14;  // of an orientation, over the product of t
 
 class CrossingSearch {
  public:
-  CrossingSearch(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles)
-      : points_(points), triangles_(triangles), boxes_(triangles.size()), normals_(triangles.size()) {
+  CrossingSearch(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, std::size_t most)
+      : points_(points),
+        triangles_(triangles),
+        most_(most),
+        boxes_(triangles.size()),
+        normals_(triangles.size()) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const Triangle& v = triangles[t];
       for (const Index p : v) boxes_[t].add(points[p]);
@@ -24,7 +28,7 @@ class CrossingSearch {
     const BoxTree tree(boxes_);
     if (tree.empty()) return {};
     std::vector<std::array<Index, 2>> stack{{0, 0}};
-    while (!stack.empty()) {
+    while (!stack.empty() && pairs_.size() < most_) {
       const auto [i, j] = stack.back();
       stack.pop_back();
       const BoxTree::Node &a = tree.nodes()[i], &b = tree.nodes()[j];
@@ -133,6 +137,7 @@ class CrossingSearch {
 
   const std::vector<Vec3>& points_;
   const std::vector<Triangle>& triangles_;
+  const std::size_t most_;
   std::vector<Box> boxes_;
   std::vector<Vec3> normals_;
   std::vector<std::array<Index, 2>> pairs_;
@@ -141,8 +146,8 @@ class CrossingSearch {
 }  // namespace
 
 std::vector<std::array<Index, 2>> find_crossings(const std::vector<Vec3>& points,
-                                                 const std::vector<Triangle>& triangles) {
-  return CrossingSearch(points, triangles).run();
+                                                 const std::vector<Triangle>& triangles, std::size_t most) {
+  return CrossingSearch(points, triangles, most).run();
 }
 
 }  // namespace dm

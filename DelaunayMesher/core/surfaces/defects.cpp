@@ -9,12 +9,13 @@
 namespace dm {
 namespace {
 
-constexpr double kSmallAngle = 0.94;   // cosine of 20 degrees
-constexpr double kShortSegment = 0.5;  // over the wanted length
-constexpr double kStripLength = 1.5;   // wanted length over the strip's width
-constexpr double kFloor = 1.0 / 8;     // of the length the size field wants
-constexpr double kWedge = 3;           // distance from the meeting point over the width: 20 degrees
-constexpr double kNoGain = 0.85;       // a cap no shorter than this, over the present length, is not worth it
+constexpr double kSmallAngle = 0.94;        // cosine of 20 degrees
+constexpr double kShortSegment = 0.5;       // over the wanted length
+constexpr double kStripLength = 1.5;        // wanted length over the strip's width
+constexpr double kFloor = 1.0 / 8;          // of the length the size field wants
+constexpr double kWedge = 3;                // distance from the meeting point over the width: 20 degrees
+constexpr std::size_t kMostCrossings = 16;  // for each triangle
+constexpr double kNoGain = 0.85;  // a cap no shorter than this, over the present length, is not worth it
 
 class NarrowPlaces {
  public:
@@ -132,7 +133,8 @@ std::vector<Index> triangles_at_repeated_points(const SurfaceMesh& mesh) {
 
 std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths) {
   std::vector<std::array<Index, 3>> crossing;  // triangle; 0 if the other is of its own face; other's face
-  for (const auto& [i, j] : find_crossings(mesh.points, mesh.triangles)) {
+  for (const auto& [i, j] :
+       find_crossings(mesh.points, mesh.triangles, kMostCrossings * mesh.triangles.size())) {
     const Index f = mesh.triangle_face[i], g = mesh.triangle_face[j];
     crossing.push_back({i, f != g, g});
     crossing.push_back({j, f != g, f});

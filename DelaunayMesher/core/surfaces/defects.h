@@ -17,7 +17,8 @@ struct Defect {
 };
 
 // Triangles that cross another one (every one of them, with half the length wanted there), and those at
-// points that lie on the same place. Cost: find_crossings.
+// points that lie on the same place; not all of them when there are many times more crossings than triangles.
+// Cost: find_crossings.
 std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths);
 
 // Do two points of the mesh coincide?

@@ -19,7 +19,8 @@ constexpr int kLastRound = 4;
 constexpr int kRescueRounds = 2;  // more, where points coincide, which no later stage can do with
 constexpr int kNarrowRounds = 2;  // that look for narrow strips
 constexpr int kCapRounds = 2;  // of smaller lengths where two faces cross, before the tessellation is taken
-constexpr double kKeepRadius = 3;     // round a crossing, over half the wanted length
+constexpr std::size_t kMostCrossings = 16;  // of a tessellation, for each of its triangles
+constexpr double kKeepRadius = 3;           // round a crossing, over half the wanted length
 constexpr double kSmallLength = 0.1;  // over the largest: where gaps between curves and faces may matter
 constexpr double kGaps = 8;           // least length over such a gap
 constexpr double kRefined = 0.82;     // circumradius over length in tessellations that are refined
@@ -108,7 +109,7 @@ class SurfaceMesher {
 
   // Pairs of face and CAD edge, sorted; made when first needed, as are the points of edges.
   const std::vector<FaceEdge>& face_edges() {
-    if (!face_edges_.empty()) return face_edges_;
+    if (!face_edges_.empty() || plc_.segments.empty()) return face_edges_;
     const PatchSource source(plc_, curves_);
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
       for (int i = 0; i < 3; ++i) {
@@ -198,6 +199,8 @@ class SurfaceMesher {
   // Faces of solids that merely touch cannot be told apart by smaller triangles: they are left to recovery.
   void repair_crossings(std::vector<Defect> crossings) {
     std::erase_if(crossings, [&](const Defect& d) { return !share_solid(d.face, d.other); });
+    if (crossings.empty()) return;
+    if (input_crosses_.empty()) check_input();
     std::vector<char> crosses(face_count(), 0), crosses_itself(face_count(), 0);
     for (const Defect& d : crossings) crosses_itself[d.face] |= d.face == d.other;
     for (const Defect& d : crossings) crosses[d.face] |= crosses_itself[d.face] || !crosses_itself[d.other];
@@ -219,7 +222,7 @@ class SurfaceMesher {
   }
 
   void escalate(Index f) {
-    if (mode_[f] == FaceMode::as_given || tessellation_crosses(f)) return;
+    if (mode_[f] == FaceMode::as_given || input_crosses_[f]) return;
     mode_[f] = mode_[f] == FaceMode::remeshed ? FaceMode::refined : FaceMode::as_given;
     redo_[f] = 1;
     const auto [first, last] = edges_of_face(f);
@@ -236,14 +239,19 @@ class SurfaceMesher {
         if (keep_[p] != 2 && norm2(plc_.points[p] - d.place) < radius2) keep_[p] = 2, redo_[d.face] = 1;
   }
 
-  bool tessellation_crosses(Index face) {
-    if (!input_checked_) {
-      input_checked_ = true;
-      input_crosses_.assign(face_count(), 0);
-      for (const auto& pair : find_crossings(plc_.points, plc_.triangles))
-        for (const Index t : pair) input_crosses_[plc_.triangle_face[t]] = 1;
-    }
-    return input_crosses_[face];
+  // Which faces cross in the tessellation.  Where its triangles have more crossings than there are triangles,
+  // a face lies over itself or another one, and no mesh can follow it.
+  void check_input() {
+    input_crosses_.assign(face_count(), 0);
+    const std::size_t most = kMostCrossings * plc_.triangles.size();
+    const auto pairs = find_crossings(plc_.points, plc_.triangles, most);
+    for (const auto& pair : pairs)
+      for (const Index t : pair) input_crosses_[plc_.triangle_face[t]] = 1;
+    if (pairs.size() < most) return;
+    const auto& [s, t] = pairs[pairs.size() / 2];
+    const Index f = plc_.triangle_face[s], g = plc_.triangle_face[t];
+    throw Failure("surfaces", "self_intersection", "faces cross over and over and cannot be meshed",
+                  plc_.points[plc_.triangles[s][0]], {2, f}, f == g ? Entity{} : Entity{2, g});
   }
 
   void redo_in(const std::vector<Box>& boxes) {
@@ -346,8 +354,7 @@ class SurfaceMesher {
   std::vector<Index> crossed_;  // rounds in which its triangles crossed
   std::vector<FaceEdge> face_edges_;
   std::vector<std::vector<Index>> edge_points_;
-  bool input_checked_ = false;
-  std::vector<char> input_crosses_;
+  std::vector<char> input_crosses_;  // in the tessellation; made when first needed
 };
 
 }  // namespace

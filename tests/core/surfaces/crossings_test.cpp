@@ -99,3 +99,18 @@ TEST_CASE("contacts are no crossings") {
       find_crossings(square, {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}).empty());  // neighbours in a plane
   CHECK(find_crossings({}, {}).empty());
 }
+
+TEST_CASE("crossing triangles: the search ends at the wanted number") {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < 100; ++t) {  // all through one line, each turned a little further
+    const double a = 0.03 * t;
+    const Vec3 across{std::cos(a), std::sin(a), 0}, low{0, 0, -0.01 * t};
+    for (const Vec3& p : {low - across, low + across, Vec3{0, 0, 1 + 0.01 * t}}) points.push_back(p);
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  CHECK(find_crossings(points, triangles).size() > 4000);
+  const auto some = find_crossings(points, triangles, 500);
+  CHECK(some.size() >= 500);
+  CHECK(some.size() < 600);
+}

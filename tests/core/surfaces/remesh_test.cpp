@@ -148,3 +148,36 @@ TEST_CASE("cancelling stops the stage") {
   Context context([](const char* stage, double) { return std::string(stage) != "surfaces"; });
   CHECK_THROWS_AS(mesh_surfaces(shape.plc, geometry, size, {}, context), Cancelled);
 }
+
+TEST_CASE("a surface that crosses itself over and over is refused, with a face's name") {
+  Shape s;
+  constexpr int n = 60;
+  for (int k = 0; k < n; ++k) {
+    Shape bar;
+    shapes::box_walls(bar, {-10, -0.5, -0.5 - 0.01 * k}, {10, 0.5, 0.5 + 0.01 * k}, 1, false, 0);
+    const double a = std::numbers::pi * k / n;
+    const auto turned = [&](const Vec3& p) {
+      return Vec3{std::cos(a) * p.x - std::sin(a) * p.y, std::sin(a) * p.x + std::cos(a) * p.y, p.z};
+    };
+    const Index first = static_cast<Index>(s.records.faces.size());
+    for (const SurfaceRecord& r : bar.records.faces)
+      s.face(shapes::plane(turned(r.origin), turned(r.axis)), 1);
+    for (std::size_t t = 0; t < bar.plc.triangles.size(); ++t) {
+      const auto [p, q, r] = bar.plc.triangles[t];
+      s.triangle(first + bar.plc.triangle_face[t], turned(bar.plc.points[p]), turned(bar.plc.points[q]),
+                 turned(bar.plc.points[r]));
+    }
+    for (const Index p : bar.plc.corners) s.corner(turned(bar.plc.points[p]));
+    for (const auto& [p, q] : bar.plc.segments) s.line(turned(bar.plc.points[p]), turned(bar.plc.points[q]));
+  }
+  const Geometry geometry(s.plc, s.records);
+  Context context;
+  const SizeField size(s.plc, geometry, Run::size_options(4), context);
+  try {
+    mesh_surfaces(s.plc, geometry, size, {}, context);
+    FAIL("it was meshed");
+  } catch (const Failure& failure) {
+    CHECK(failure.code == "self_intersection");
+    CHECK(failure.entity.dimension == 2);
+  }
+}
