@@ -6,12 +6,13 @@ each node and triangle.
 """
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import MeshPart
 import numpy as np
 import Part
 
+from .. import extension
 from .cad_elements import CadElements
 from .merge_points import merge_points
 from .strips import is_narrow, strip_facets
@@ -60,7 +61,7 @@ def tessellate(cad, linear, angular):
     )
     starts = starts[1 + len(lines) :].tolist()
     triangles, triangle_face = gather_triangles([triangles for _, triangles in facets], starts, compact)
-    return Tessellation(
+    mesh = Tessellation(
         cad=cad,
         points=points[used],
         triangles=triangles,
@@ -70,6 +71,7 @@ def tessellate(cad, linear, angular):
         vertex_point=compact[: len(corners)],
         face_nodes=[points[start : start + len(nodes)] for start, (nodes, _) in zip(starts, facets)],
     )
+    return without_laps(mesh)
 
 
 def vectors_to_array(vectors, count):
@@ -78,15 +80,31 @@ def vectors_to_array(vectors, count):
     return flat.reshape(-1, 3)
 
 
-def laps_itself(face, surface):
-    """Whether a face goes round its surface more than once: its edges were put on it a turn apart.
+def without_laps(mesh):
+    """The Tessellation without the triangles of faces whose edges were put on their surface a turn apart.
 
-    OCC's triangles of such a face lie on each other; without any it is filled from its outline (filling.py).
+    OCC covers such a face several times; without triangles it is filled from its outline (filling.py).
     """
+    for number, (face, surface) in enumerate(zip(mesh.cad.faces, mesh.cad.surfaces)):
+        if winds(face, surface):
+            mine = mesh.triangle_face == number
+            if laps_itself(mesh.points, mesh.triangles[mine]):
+                mesh.face_nodes[number] = np.zeros((0, 3))
+                mesh = replace(mesh, triangles=mesh.triangles[~mine], triangle_face=mesh.triangle_face[~mine])
+    return mesh
+
+
+def winds(face, surface):
+    """Whether a face goes round its surface more than once, as the strip beside a thread does, too."""
     if not isinstance(surface, ROUND):
         return False
     u0, u1, _, _ = face.ParameterRange
     return u1 - u0 > ONE_TURN
+
+
+def laps_itself(points, triangles):
+    """Whether some of the triangles (m, 3) of a face cross or overlap."""
+    return len(extension.load().crossings(points, triangles.astype(np.int32))) > 0
 
 
 def edge_lines(cad, without, linear):
@@ -113,11 +131,9 @@ def edge_lines(cad, without, linear):
 def face_facets(cad, narrow, lines):
     """Per face (list of vectors, list of triangles as tuples of places in it)."""
     facets = []
-    for number, (face, surface) in enumerate(zip(cad.faces, cad.surfaces)):
+    for number, face in enumerate(cad.faces):
         if number in narrow:
             facets.append(strip_facets(face, [lines[edge] for edge in cad.face_edges[number]]))
-        elif laps_itself(face, surface):
-            facets.append(([], []))
         else:
             facets.append(face.getFacesFromSubElement("Face", 1))
     return facets

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import Part
 import pytest
-from FreeCAD import Rotation, Vector
+from FreeCAD import Base, Rotation, Vector
 from parts import PARTS
 
 from DelaunayMesher import pipeline
@@ -208,17 +208,34 @@ def test_a_solid_that_cannot_be_meshed_is_left_out(monkeypatch):
         pipeline.run(apart.Solids[1], {"max_size": 5.0})
 
 
+def test_the_strip_of_a_thread_keeps_its_triangles():
+    """It winds round its cylinder more than once, but beside itself."""
+    cylinder = Part.Cylinder()
+    cylinder.Radius = 5
+    corners = [Base.Vector2d(*place) for place in ((0, 0), (9, 9), (9, 10), (0, 1))]
+    sides = zip(corners, corners[1:] + corners[:1])
+    edges = [Part.Geom2d.Line2dSegment(a, b).toShape(cylinder) for a, b in sides]
+    face = Part.Face(cylinder, Part.Wire(edges))
+    face.validate()
+    assert tessellation.winds(face, face.Surface)
+    mesh = tessellate(CadElements(face), 0.05, 0.3)
+    corners = mesh.points[mesh.triangles]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.linalg.norm(areas, axis=1).sum() / 2 == pytest.approx(45, rel=0.02)
+
+
 def test_a_face_that_laps_itself_is_made_from_its_outline(monkeypatch):
     """Its edges lie on the surface's parameters a turn apart; OCC covers it five times then."""
     turned = SimpleNamespace(ParameterRange=(-0.5 * math.pi, 2 * math.pi, 0.0, 1.0))
-    assert tessellation.laps_itself(turned, Part.Cylinder())
-    assert not any(tessellation.laps_itself(face, face.Surface) for face in PARTS["torus"]().Faces)
+    assert tessellation.winds(turned, Part.Cylinder())
+    assert not any(tessellation.winds(face, face.Surface) for face in PARTS["torus"]().Faces)
+    monkeypatch.setattr(tessellation, "laps_itself", lambda *_: True)
     rounded = Part.makeBox(10, 10, 10)
     rounded = rounded.makeFillet(3, [rounded.Edges[0], rounded.Edges[1], rounded.Edges[4]])
     for number, face in enumerate(rounded.Faces):
         monkeypatch.setattr(
             tessellation,
-            "laps_itself",
+            "winds",
             lambda other, _, c=face.CenterOfMass: other.CenterOfMass.isEqual(c, 1e-6),
         )
         plc = convert(rounded).plc
