@@ -17,7 +17,7 @@ import Part
 from .closed import side_triangles
 from .patch import FaceShape, bridged, least_cost, onto_surface, plane_triangles
 
-LONGEST = 500  # points of all loops of a curved face
+LONGEST = 500  # points of all loops of a face that is not a plane with simple outlines
 
 
 def fill(mesh, sides):
@@ -151,9 +151,9 @@ def fill_face(mesh, face, loops, sign):
         triangles = plane_triangles(mesh.points, loops)
         if triangles is not None:
             return mesh.points, triangles, True
-    loop = bridged(mesh.points, loops)
-    if len(loop) > LONGEST:
+    if sum(map(len, loops)) + 2 * (len(loops) - 1) > LONGEST:  # with bridges
         return mesh.points, np.zeros((0, 3), dtype=np.int64), False
+    loop = bridged(mesh.points, loops)
     shape = FaceShape(mesh.cad.faces[face], surface, sign)
     triangles = least_cost(mesh.points[loop], np.array([shape.normal(mesh.points[point]) for point in loop]))
     triangles = np.array(loop)[triangles]
