@@ -18,14 +18,16 @@ from .plc import Plc
 from .result import mesh_from_core
 from .surfacefile import Surface, read_surface
 
+HOPELESS = ("too_many_elements", "out_of_memory", "bad_size", "bad_region")  # with any of the solids
+BYTES_PER_ELEMENT = 600  # peak of all stages together, second order included
+
 
 def run(source, options=None, report=None, keep=()):
     """Mesh of a Part shape, a Plc, a surface (points, triangles), a file name or a CadProcess.
 
     options: MeshOptions, dict or None. report: callable (stage, fraction in 0..1) called now and then from
     this thread; False cancels. keep: names of elements of a Part shape that stay (document.convert).
-    Raises MeshError, InputError (wrong options, unreadable file) or
-    MeshCancelled.
+    Raises MeshError, InputError (wrong options, unreadable file) or MeshCancelled.
     """
     core = extension.load()
     options = make_options(options)
@@ -92,9 +94,6 @@ def mesh_all(core, plcs, converted, options, report):
 def solid_names(plc):
     """'Solid2, Solid5' of a PLC of a shape."""
     return ", ".join(entity_name(3, int(number)) for number in plc.solid_numbers)
-
-
-HOPELESS = ("too_many_elements", "out_of_memory", "bad_size", "bad_region")  # with any of the solids
 
 
 def _share(report, start, share):
@@ -192,6 +191,3 @@ def elements_that_fit():
     except (OSError, StopIteration, ValueError):
         return 0
     return max(1000, min(free // BYTES_PER_ELEMENT, 2**31 - 1))
-
-
-BYTES_PER_ELEMENT = 600  # peak of all stages together, second order included

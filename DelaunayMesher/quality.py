@@ -161,37 +161,30 @@ def summary(points, tets):
         return {}
     parts = [tets[start : start + CHUNK] for start in range(0, len(tets), CHUNK)]
     histogram, below = np.zeros(36, np.int64), np.zeros(len(DIHEDRAL_LIMITS), np.int64)
-    extremes, sums, length_counts = [], np.zeros(2), 0
+    lows, highs, sums, length_counts = [], [], np.zeros(2), 0
     for part in parts:
         angles = dihedral_angles(points, part)
         smallest = angles.min(axis=1)
         lengths, inside, outside = (f(points, part) for f in (edge_lengths, inradius, circumradius))
         radius_edge = _ratio(outside, lengths.min(axis=1), np.inf)
+        aspect = _ratio(lengths.max(axis=1), 2 * np.sqrt(6) * inside, np.inf)
         length_counts += logarithms(lengths)
         histogram += np.histogram(angles, 36, (0, 180))[0]
         below += [(smallest < limit).sum() for limit in DIHEDRAL_LIMITS]
         sums += smallest.sum(), radius_edge.sum()
-        extremes.append(
-            (
-                smallest.min(),
-                (3 * inside / outside).min(),
-                volumes(points, part).min(),
-                -angles.max(),
-                -radius_edge.max(),
-                -_ratio(lengths.max(axis=1), 2 * np.sqrt(6) * inside, np.inf).max(),
-            )
-        )
-    low = np.min(extremes, axis=0).tolist()
+        lows.append((smallest.min(), (3 * inside / outside).min(), volumes(points, part).min()))
+        highs.append((angles.max(), radius_edge.max(), aspect.max()))
+    low, high = np.min(lows, axis=0).tolist(), np.max(highs, axis=0).tolist()
     result = {
         "min_dihedral": low[0],
-        "max_dihedral": -low[3],
+        "max_dihedral": high[0],
         "mean_min_dihedral": float(sums[0] / len(tets)),
         "below": {str(limit): int(count) for limit, count in zip(DIHEDRAL_LIMITS, below)},
         "histogram": {"degrees": list(range(0, 181, 5)), "counts": histogram.tolist()},
-        "radius_edge_max": -low[4],
+        "radius_edge_max": high[1],
         "radius_edge_mean": float(sums[1] / len(tets)),
         "radius_ratio_min": low[1],
-        "aspect_max": -low[5],
+        "aspect_max": high[2],
         "min_volume": low[2],
         "median_edge": median(length_counts),
     }

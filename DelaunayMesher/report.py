@@ -1,4 +1,4 @@
-"""The JSON report of a run (docs/report.md): what was made, how good it is, how long it took."""
+"""The JSON report of a run: what was made, how good it is, how long it took."""
 
 import json
 import sys

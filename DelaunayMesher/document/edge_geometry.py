@@ -1,5 +1,7 @@
 """Exact geometry of CAD edges as records of numbers: line, circle, or a B-spline curve."""
 
+from typing import NamedTuple
+
 import numpy as np
 import Part
 
@@ -10,8 +12,17 @@ POLYLINE, LINE, CIRCLE, SPLINE = range(4)
 PARAMETERS = 7  # origin (3), axis (3), a
 
 
+class EdgeRecords(NamedTuple):
+    """The exact curves of E edges; splines are numbered as in `splines`, -1 means none."""
+
+    kinds: np.ndarray  # (E,) int32
+    params: np.ndarray  # (E, 7) float64: origin, axis, a
+    spline: np.ndarray  # (E,) int32
+    splines: list  # dicts of splines.curve_record()
+
+
 def edge_records(edges, wanted):
-    """Arrays (kind (E,), params (E, 7), spline (E,)), and the list of spline dicts.
+    """EdgeRecords of a list of edges.
 
     wanted: (E,) bool; other edges (degenerate ones, seams that are dropped) stay polylines.
     """
@@ -36,7 +47,7 @@ def edge_records(edges, wanted):
     kinds[straight] = LINE
     params[straight, :3] = ends[:, 0]
     params[straight, 3:6] = along / np.linalg.norm(along, axis=1)[:, None]
-    return kinds, params, spline, splines
+    return EdgeRecords(kinds, params, spline, splines)
 
 
 def curve_of(edge):

@@ -6,6 +6,7 @@ unknown kind) the face is converted to a B-spline.
 """
 
 import itertools
+from typing import NamedTuple
 
 import FreeCAD
 import numpy as np
@@ -21,9 +22,18 @@ SAME = 1e-7  # mm
 PARALLEL = 1e-9  # cosine
 
 
+class FaceRecords(NamedTuple):
+    """The exact surfaces of F faces; splines are numbered as in `splines`, -1 means none."""
+
+    kinds: np.ndarray  # (F,) int32
+    params: np.ndarray  # (F, 8) float64: origin, axis, a, b
+    spline: np.ndarray  # (F,) int32
+    splines: list  # dicts of splines.surface_record()
+    doubtful: list  # faces without an exact surface
+
+
 def face_records(cad, face_nodes, tolerances):
-    """Arrays (kind (F,), params (F, 8), spline (F,)), the list of spline dicts, and the faces without a
-    surface.
+    """FaceRecords of CadElements.
 
     face_nodes: per face an (n, 3) array of points on it.  tolerances (F,): how far these may be off, as CAD
     edges are only near the surface.
@@ -44,7 +54,7 @@ def face_records(cad, face_nodes, tolerances):
             splines.append(record)
         if kinds[number] == FACETS:
             doubtful.append(number)
-    return kinds, params, spline, splines, doubtful
+    return FaceRecords(kinds, params, spline, splines, doubtful)
 
 
 def freeform_record(face, surface, nodes, tolerance):

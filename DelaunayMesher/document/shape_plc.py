@@ -132,40 +132,39 @@ class Geometry:
         cad = mesh.cad
         tolerances = [position_tolerance(face) for face in cad.faces]
         self.faces = face_records(cad, mesh.face_nodes, tolerances)
-        doubtful = self.faces[4]
         self.warnings = []
-        if doubtful:
-            self.warnings.append("no exact surface for %s: its facets are used" % face_names(doubtful))
-        self.seam, self.corner = features(mesh, self.faces[0], kept)
+        if self.faces.doubtful:
+            names = face_names(self.faces.doubtful)
+            self.warnings.append("no exact surface for %s: its facets are used" % names)
+        self.seam, self.corner = features(mesh, self.faces.kinds, kept)
         self.edges = edge_records(cad.edges, wanted_edges(mesh, self.seam))
 
     def of(self, faces, edges):
         """The dict of the core with the splines of some faces and edges only."""
-        kinds, params, spline, surfaces = self.faces[:4]
-        curve_kinds, curve_params, curve_spline, curves = self.edges[:4]
-        kinds, spline, surfaces = only(kinds, spline, surfaces, faces)
-        curve_kinds, curve_spline, curves = only(curve_kinds, curve_spline, curves, edges)
+        kinds, spline, surfaces = only(self.faces, faces)
+        curve_kinds, curve_spline, curves = only(self.edges, edges)
         return {
             "face_kind": kinds,
-            "face_params": params,
+            "face_params": self.faces.params,
             "face_spline": spline,
             "edge_kind": curve_kinds,
-            "edge_params": curve_params,
+            "edge_params": self.edges.params,
             "edge_spline": curve_spline,
             "spline_surfaces": surfaces,
             "spline_curves": curves,
         }
 
 
-def only(kinds, spline, records, used):
-    """(kinds, spline, records) of used elements; the kind of the others is 0, which needs no record."""
-    here = np.zeros(len(kinds), dtype=bool)
+def only(records, used):
+    """(kinds, spline, splines) of the used ones of FaceRecords or EdgeRecords; the kind of the others is 0,
+    which needs no record."""
+    here = np.zeros(len(records.kinds), dtype=bool)
     here[used] = True
-    kinds = np.where(here, kinds, 0).astype(np.int32)
-    wanted = np.where(here, spline, -1)
+    kinds = np.where(here, records.kinds, 0).astype(np.int32)
+    wanted = np.where(here, records.spline, -1)
     numbers = np.unique(wanted[wanted >= 0])
     renumbered = np.where(wanted >= 0, np.searchsorted(numbers, wanted), -1).astype(np.int32)
-    return kinds, renumbered, [records[number] for number in numbers.tolist()]
+    return kinds, renumbered, [records.splines[number] for number in numbers.tolist()]
 
 
 def numbers_of(names, kind):

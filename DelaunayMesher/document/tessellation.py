@@ -48,7 +48,11 @@ def tessellate(cad, linear, angular):
         wide = Part.Compound([face for number, face in enumerate(cad.faces) if number not in narrow])
     MeshPart.meshFromShape(Shape=wide, LinearDeflection=linear, AngularDeflection=angular, Relative=False)
     lines = edge_lines(cad, narrow, linear)
-    facets = face_facets(cad, narrow, lines)
+    return without_laps(gathered(cad, lines, face_facets(cad, narrow, lines)))
+
+
+def gathered(cad, lines, facets):
+    """Tessellation of CadElements from edge_lines() and face_facets(), nodes that coincide merged."""
     corners = [vertex.Point for vertex in cad.vertices]
     counts = np.array([len(corners), *map(len, lines), *(len(nodes) for nodes, _ in facets)])
     starts = np.cumsum(counts) - counts
@@ -61,7 +65,7 @@ def tessellate(cad, linear, angular):
     )
     starts = starts[1 + len(lines) :].tolist()
     triangles, triangle_face = gather_triangles([triangles for _, triangles in facets], starts, compact)
-    mesh = Tessellation(
+    return Tessellation(
         cad=cad,
         points=points[used],
         triangles=triangles,
@@ -71,7 +75,6 @@ def tessellate(cad, linear, angular):
         vertex_point=compact[: len(corners)],
         face_nodes=[points[start : start + len(nodes)] for start, (nodes, _) in zip(starts, facets)],
     )
-    return without_laps(mesh)
 
 
 def vectors_to_array(vectors, count):
