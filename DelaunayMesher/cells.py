@@ -55,12 +55,23 @@ def half_edges(triangles):
 
 
 def connected(a, b, count):
-    """How many groups `count` items fall into when a[k] and b[k] are linked, and the group of each."""
-    from scipy.sparse import coo_matrix  # here, as most runs do without
-    from scipy.sparse.csgraph import connected_components
+    """How many groups `count` items fall into when a[k] and b[k] are linked, and the group (count,) of each.
 
-    links = coo_matrix((np.ones(len(a), bool), (a, b)), shape=(count, count))
-    return connected_components(links, directed=False)
+    Groups are numbered by their first items. Each round hooks the leader of every group on that of a group
+    before it, if there is a link, so that some rounds are enough. (SciPy takes longer to load.)
+    """
+    leader = np.arange(count)
+    while len(a):
+        first, second = leader[a], leader[b]
+        apart = first != second
+        a, b = a[apart], b[apart]
+        low = np.minimum(first, second)[apart]
+        order = np.argsort(-low, kind="stable")  # the lowest comes last and stays
+        leader[np.maximum(first, second)[apart][order]] = low[order]
+        while (leader != leader[leader]).any():
+            leader = leader[leader]
+    numbers, group = np.unique(leader, return_inverse=True)
+    return len(numbers), group.reshape(-1)
 
 
 def find_cells(points, triangles, holes=None, nested="cavity"):

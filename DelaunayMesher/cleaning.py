@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from .cells import connected, half_edges
+from .cells import half_edges
 from .errors import MeshError
+from .merge_points import merge_points
 from .sizing import diagonal
 
 EXACT = 1e-10  # relative to the diagonal: the same point written twice
@@ -29,12 +30,13 @@ def clean(points, triangles, labels=None):
     if not np.isfinite(points[used]).all():
         bad = used[~np.isfinite(points[used]).all(axis=1)][0]
         raise MeshError("plc", "not_finite", "point %d has a coordinate that is no number" % bad)
-    length = diagonal(points[used])
+    points, triangles = points[used], np.searchsorted(used, triangles)
+    length = diagonal(points)
     if length == 0:
-        raise MeshError("plc", "empty", "all points of the surface coincide", points[used[0]])
-    spread = np.linalg.svd(np.cov(points[used].T), compute_uv=False)
+        raise MeshError("plc", "empty", "all points of the surface coincide", points[0])
+    spread = np.linalg.svd(np.cov(points.T), compute_uv=False)
     if spread[2] <= (EXACT * length) ** 2:
-        raise MeshError("plc", "zero_volume", "all points of the surface lie in one plane", points[used[0]])
+        raise MeshError("plc", "zero_volume", "all points of the surface lie in one plane", points[0])
     merged = _merged(points, triangles, labels, EXACT * length)
     warnings = []
     if _has_open_edges(merged[0]):
@@ -50,29 +52,13 @@ def clean(points, triangles, labels=None):
 
 def _merged(points, triangles, labels, tolerance):
     """Triangles on merged points, without flat and repeated ones."""
-    triangles = merge_points(points, tolerance)[triangles]
+    triangles = merge_points(points - points[0], tolerance)[triangles]
     a, b, c = triangles.T
     keep = (a != b) & (b != c) & (c != a)
     triangles, labels = triangles[keep], labels[keep]
     order, same = _same_as_before(np.sort(triangles, axis=1).T)
     first = np.sort(order[~same])
     return triangles[first], labels[first]
-
-
-def merge_points(points, tolerance):
-    """(n,) for each point the first of the points that coincide with it."""
-    from scipy.spatial import cKDTree  # here, as CAD does without
-
-    order, same = _same_as_before(points.T)
-    first = order[~same]
-    group = np.empty(len(points), np.int64)
-    group[order] = np.cumsum(~same) - 1
-    pairs = cKDTree(points[first]).query_pairs(tolerance, output_type="ndarray")
-    if len(pairs):
-        group = connected(pairs[:, 0], pairs[:, 1], len(first))[1][group]
-    smallest = np.full(group.max() + 1, len(points))
-    np.minimum.at(smallest, group, np.arange(len(points)))
-    return smallest[group]
 
 
 def _has_open_edges(triangles):

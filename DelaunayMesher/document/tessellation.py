@@ -13,8 +13,8 @@ import numpy as np
 import Part
 
 from .. import extension
+from ..merge_points import merge_points
 from .cad_elements import CadElements
-from .merge_points import merge_points
 from .strips import is_narrow, strip_facets
 
 COARSE_ANGLE = 0.3  # radians

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from DelaunayMesher.document.merge_points import merge_points
+from DelaunayMesher.merge_points import merge_points
 
 
 @settings(max_examples=50, deadline=None)
