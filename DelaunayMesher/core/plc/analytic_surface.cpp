@@ -138,7 +138,7 @@ Vec3 AnalyticSurface::normal(const Vec3& p) const {
     case SurfaceKind::cone: {
       const Meridian m = meridian(p);
       const double side = cone_nappe(m) == 0 ? 1 : -1;
-      if (cone_length(m) == 0) return -side * record_.axis;  // the apex: the mean of the normals round it
+      if (cone_length(m) == 0) return {};  // the apex has none
       return cosine_ * m.radial - side * sine_ * record_.axis;
     }
     default:

@@ -9,7 +9,8 @@ class Surface {
  public:
   virtual ~Surface() = default;
   virtual Vec3 project(const Vec3& p) const = 0;
-  // Unit normal at the projection of p; its side is the surface's own, constant on each sheet.
+  // Unit normal at the projection of p; its side is the surface's own, constant on each sheet. Zero at an
+  // apex.
   virtual Vec3 normal(const Vec3& p) const = 0;
   // Largest absolute principal curvature at the projection of p.
   virtual double curvature(const Vec3& p) const = 0;
