@@ -1,5 +1,7 @@
 #include "optimisation/collapse.h"
 
+#include "optimisation/sagitta.h"
+
 namespace dm {
 namespace {
 
@@ -86,29 +88,33 @@ bool Contractor::keeps_surface(Index from, Index to) {
   const auto normal = [&](const Triangle& t) {
     return normalized(area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2])));
   };
-  const auto sagitta = [&](Index face, Index v, Index w) {
-    const Vec3 middle = 0.5 * (mesh_.point(v) + mesh_.point(w));
-    return distance(middle, geometry_.project_to_face(face, middle));
-  };
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     if (turned_[i] == kNothing) continue;
-    const Triangle& old = mesh_.triangle(triangles_[i]);
     if (mesh_.find_triangle(turned_[i][0], turned_[i][1], turned_[i][2]) >= 0) return false;
-    if (dot(normal(old), normal(turned_[i])) < kNormalTurn) return false;
-    const Index face = mesh_.triangle_face(triangles_[i]);
-    if (geometry_.is_plane(face)) continue;
-    double most = 0;
-    for (std::size_t j = 0; j < triangles_.size(); ++j)
-      if (mesh_.triangle_face(triangles_[j]) == face)
-        for (const Index v : mesh_.triangle(triangles_[j]))
-          if (v != from) most = std::max(most, sagitta(face, from, v));
-    for (const Index v : turned_[i])
-      if (v != to && sagitta(face, to, v) > 1.2 * most) return false;
+    if (dot(normal(mesh_.triangle(triangles_[i])), normal(turned_[i])) < kNormalTurn) return false;
   }
-  return true;
+  const auto faces = mesh_.faces_of(from);
+  return std::all_of(faces.begin(), faces.end(), [&](Index face) { return stays_close(face, from, to); });
 }
 
-// What becomes of the boundary when `from` goes to `to`; false when that is not allowed.
+bool Contractor::stays_close(Index face, Index from, Index to) const {
+  std::vector<Segment> old_edges;
+  std::vector<Vec3> middles;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (mesh_.triangle_face(triangles_[i]) != face) continue;
+    for (const Index v : mesh_.triangle(triangles_[i])) {
+      if (v == from) continue;
+      old_edges.push_back({from, v});
+      const Vec3 middle = 0.5 * (mesh_.point(v) + mesh_.point(to));
+      const bool is_new = v != to && turned_[i] != kNothing;
+      if (is_new && std::find(middles.begin(), middles.end(), middle) == middles.end())
+        middles.push_back(middle);
+    }
+  }
+  return lies_as_close(mesh_, geometry_, face, middles, old_edges);
+}
+
+// What becomes of the boundary when `from` goes to `to`; false when that is not possible.
 bool Contractor::plan_boundary(Index from, Index to) {
   turned_.clear();
   boundary_.clear();
@@ -140,7 +146,7 @@ bool Contractor::plan_boundary(Index from, Index to) {
     turned_.push_back(t);
   }
   if (entity.dimension == 2 ? vanishing != 2 : segments_.size() != 2 || vanishing == 0) return false;
-  return !shares_other_neighbours(from, to) && keeps_surface(from, to);
+  return true;
 }
 
 void Contractor::apply(const Plan& plan) {
@@ -183,6 +189,7 @@ bool Contractor::collapse_best(Index tet) {
 bool Contractor::contract(Index from, Index to) {
   Plan found;
   if (!plan_boundary(from, to) || !plan(from, to, kInverted, found)) return false;
+  if (!mesh_.interior(from) && (shares_other_neighbours(from, to) || !keeps_surface(from, to))) return false;
   if (makes_forbidden_face(found, to)) return false;
   apply(found);
   return true;

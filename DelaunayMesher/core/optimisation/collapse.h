@@ -35,6 +35,7 @@ class Contractor {
   bool list_triangles(Index from);
   bool shares_other_neighbours(Index from, Index to);
   bool keeps_surface(Index from, Index to);
+  bool stays_close(Index face, Index from, Index to) const;
   void apply(const Plan& plan);
 
   EditMesh& mesh_;

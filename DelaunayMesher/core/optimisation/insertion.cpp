@@ -1,12 +1,13 @@
 #include "optimisation/insertion.h"
 
+#include "optimisation/sagitta.h"
+
 namespace dm {
 namespace {
 
 constexpr std::size_t kLargest = 30;  // tetrahedra of a cavity: their cone has fewer than kMaxReplace
 constexpr double kFlat = 0.6664;      // badness at 1 and 178 degrees
 constexpr int kSteps = 6;             // along the gradient, before the cavity is grown again
-constexpr double kSagitta = 1.2;      // new distance from the CAD face relative to the old one
 constexpr double kNormalTurn = 0.9;   // cosine of the largest angle between old and new normals
 
 bool contains(const Tet& t, Index v) { return t[0] == v || t[1] == v || t[2] == v || t[3] == v; }
@@ -142,28 +143,26 @@ bool Inserter::build_triangles() {
 
 // The new triangles on one CAD face beside the old ones.
 bool Inserter::keeps_surface(Index face) const {
-  const auto sagitta = [&](const Vec3& p, const Vec3& q) {
-    const Vec3 middle = 0.5 * (p + q);
-    return distance(middle, geometry_.project_to_face(face, middle));
-  };
-  const bool curved = !geometry_.is_plane(face);
   Vec3 before;
-  double most = 0;
+  std::vector<Segment> old_edges;
   for (const Index k : triangles_) {
     if (mesh_.triangle_face(k) != face) continue;
     const auto [a, b, c] = mesh_.triangle(k);
-    const Vec3 &p = mesh_.point(a), &q = mesh_.point(b), &r = mesh_.point(c);
-    before += normalized(area_vector(p, q, r));
-    if (curved) most = std::max({most, sagitta(p, q), sagitta(q, r), sagitta(r, p)});
+    before += normalized(area_vector(mesh_.point(a), mesh_.point(b), mesh_.point(c)));
+    for (const Segment& edge : {Segment{a, b}, Segment{b, c}, Segment{c, a}}) old_edges.push_back(edge);
   }
   before = normalized(before);
+  std::vector<Vec3> middles;
   for (std::size_t i = 0; i < rims_.size(); ++i) {
     if (rim_face_[i] != face) continue;
     const Vec3 &p = mesh_.point(rims_[i][0]), &q = mesh_.point(rims_[i][1]);
     if (dot(normalized(area_vector(p, q, place_)), before) < kNormalTurn) return false;
-    if (curved && std::max(sagitta(p, place_), sagitta(q, place_)) > kSagitta * most) return false;
+    for (const Vec3& end : {p, q}) {
+      const Vec3 middle = 0.5 * (end + place_);
+      if (!has(middles, middle)) middles.push_back(middle);
+    }
   }
-  return true;
+  return lies_as_close(mesh_, geometry_, face, middles, old_edges);
 }
 
 bool Inserter::keeps_surface() const {
@@ -310,15 +309,25 @@ bool Inserter::insert_on_triangle(Index tet, int face) {
 bool Inserter::insert(Index tet, int place) {
   if (place == 0) return insert_inside(tet);
   if (place > 6) return mesh_.marked(tet, place - 7) && insert_on_triangle(tet, place - 7);
-  const Tet c = mesh_.tet(tet);
+  const Triangle ends = site(tet, place);
+  return ends[0] >= 0 && insert_on_edge(ends[0], ends[1]);
+}
+
+Triangle Inserter::site(Index tet, int place) const {
+  const Tet& c = mesh_.tet(tet);
+  if (place > 6) {
+    const auto& f = EditMesh::kFace[place - 7];
+    return mesh_.marked(tet, place - 7) ? sorted(Triangle{c[f[0]], c[f[1]], c[f[2]]}) : Triangle{-1, -1, -1};
+  }
   std::vector<std::pair<double, Segment>> edges;
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j)
       if (!mesh_.interior(c[i]) && !mesh_.interior(c[j]))
-        edges.push_back({-distance(mesh_.point(c[i]), mesh_.point(c[j])), {c[i], c[j]}});
-  if (static_cast<std::size_t>(place) > edges.size()) return false;
+        edges.push_back({-distance(mesh_.point(c[i]), mesh_.point(c[j])), sorted(Segment{c[i], c[j]})});
+  if (place < 1 || place > static_cast<int>(edges.size())) return {-1, -1, -1};
   std::sort(edges.begin(), edges.end());
-  return insert_on_edge(edges[place - 1].second[0], edges[place - 1].second[1]);
+  const Segment& ends = edges[place - 1].second;
+  return {ends[0], ends[1], -1};
 }
 
 }  // namespace dm

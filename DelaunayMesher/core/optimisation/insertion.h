@@ -24,6 +24,8 @@ class Inserter {
   // Puts a point, the last one of the mesh then, into a cavity with `tet`.  Place 0: inside; 1 to 6: on a
   // boundary edge, the longest first; 7 to 10: on a boundary triangle.  False when that is impossible.
   bool insert(Index tet, int place);
+  // The corners of that edge or triangle, -1 for those missing; all -1 when there is none.
+  Triangle site(Index tet, int place) const;
 
  private:
   struct Face {

@@ -147,32 +147,33 @@ class Optimiser {
                               kWorstRounds);
       changes += cure(worst[i], round);
     }
-    return changes > 0;
+    return changes > 0 || round <= Rescuer::kMostEffort;
   }
+  bool pending(Index t) const { return !mesh_.removed(t) && mesh_.bad(t) > target_; }
   bool cure(Index t, int round) {
-    const auto pending = [&] { return !mesh_.removed(t) && mesh_.bad(t) > target_; };
-    if (!pending()) return false;
+    if (!pending(t)) return false;
+    bool changed = false;
     tet_failed_.resize(mesh_.slot_count(), 0);
-    if (tet_failed_[t] >= mesh_.last_change(mesh_.tet(t))) return false;
-    if (cure_by_all(t, round)) return true;
-    if (round > 0) tet_failed_[t] = mesh_.now();
-    return false;
+    if (tet_failed_[t] < mesh_.last_change(mesh_.tet(t))) {
+      changed = cure_by_steps(t, round > 0);
+      if (!changed && round > 0) tet_failed_[t] = mesh_.now();
+    }
+    if (round > 0 && pending(t) && rescuer_.rescue(t, round - 1)) ++report_.rescued, changed = true;
+    return changed;
   }
-  bool cure_by_all(Index t, int round) {
-    const auto pending = [&] { return !mesh_.removed(t) && mesh_.bad(t) > target_; };
+  // By changes that are better at once.
+  bool cure_by_steps(Index t, bool all) {
     if (flippers_[0].improve(t)) return ++report_.flipped, true;
-    if (round > 0 && flippers_[0].improve_boundary(t, geometry_)) return ++report_.flipped, true;
+    if (all && flippers_[0].improve_boundary(t, geometry_)) return ++report_.flipped, true;
     bool changed = false;
     const Tet corners = mesh_.tet(t);
     for (Index v : corners) {
-      if (!pending()) return changed;
+      if (!pending(t)) return changed;
       changed |= smooth_worst(v);
     }
-    if (round > 0 && pending() && contractor_.collapse_best(t)) ++report_.collapsed, changed = true;
-    if (round > 0 && pending() && rescuer_.rescue(t)) ++report_.rescued, changed = true;
+    if (all && pending(t) && contractor_.collapse_best(t)) ++report_.collapsed, changed = true;
     return changed;
   }
-
   bool smooth_worst(Index v) {
     point_failed_.resize(mesh_.vertex_count(), 0);
     if (point_failed_[v] >= mesh_.last_change(v)) return false;

@@ -3,13 +3,17 @@
 namespace dm {
 namespace {
 
-constexpr double kGain = 1e-2;     // of the worst badness
-constexpr int kEdges = 2;          // that are contracted
-constexpr int kSteps = 3;          // of a follow-up
-constexpr double kDeepAngle = 27;  // degrees: below it follow-ups are tried
-constexpr int kPasses = 3;         // of smoothing and flips
-constexpr double kBad = 0.5;       // elements worse than this are worked on
-constexpr Index kTries = 1000;     // elements that are tried, and one for each hundred tetrahedra
+constexpr double kGain = 1e-2;  // of the worst badness
+constexpr int kEdges = 2;       // that are contracted
+constexpr int kSteps = 3;       // of a follow-up
+constexpr int kPasses = 3;      // of smoothing and flips
+constexpr double kBad = 0.5;    // elements worse than this are worked on
+constexpr double kHope = 1;     // progress of a pass relative to the one before, if all goes well
+struct Effort {
+  double angle;        // degrees: elements below it are worth it
+  Index tries, share;  // so many are tried, and one more for so many tetrahedra
+};
+constexpr Effort kEfforts[] = {{30, 4000, 15}, {30, 2000, 40}, {27, 2000, 40}};
 
 }  // namespace
 
@@ -20,8 +24,10 @@ Rescuer::Rescuer(EditMesh& mesh, Smoother& smoother, Flipper& flipper, Contracto
       flipper_(flipper),
       contractor_(contractor),
       inserter_(mesh, smoother, geometry),
-      geometry_(geometry),
-      tries_left_(kTries + mesh.slot_count() / 100) {}
+      geometry_(geometry) {
+  for (int i = 0; i <= kMostEffort; ++i)
+    tries_left_[i] = kEfforts[i].tries + mesh.slot_count() / kEfforts[i].share;
+}
 
 // Is the smallest angle one between two CAD faces, which no change of the mesh opens?
 bool Rescuer::is_fixed(Index tet) {
@@ -38,8 +44,10 @@ bool Rescuer::is_fixed(Index tet) {
   return mesh_.is_segment(ends[0], ends[1]) && *sharpest - 1.0 / 3 >= mesh_.bad(tet) - 1e-6;
 }
 
-// Smooths v and the points of its bad tetrahedra and flips those.
+// Smooths v and the points of its bad tetrahedra and flips those.  Gives up when further passes as good as
+// the last one would not be enough.
 void Rescuer::settle(Index v) {
+  double worst = badness(mesh_.trial_now());
   for (int pass = 0; pass < kPasses && mesh_.vertex_tet(v) >= 0; ++pass) {
     const auto star = mesh_.star(v);
     tets_.assign(star.begin(), star.end());
@@ -52,6 +60,9 @@ void Rescuer::settle(Index v) {
     for (const Index t : tets_)
       if (!mesh_.removed(t) && mesh_.bad(t) >= kBad && !flipper_.improve(t))
         flipper_.improve_boundary(t, geometry_);
+    const double now = badness(mesh_.trial_now()), missing = now - (badness(mesh_.trial_before()) - kGain);
+    if (effort_ < kMostEffort && missing > kHope * (kPasses - 1 - pass) * (worst - now)) return;
+    worst = now;
   }
 }
 
@@ -73,21 +84,36 @@ void Rescuer::follow_up() {
   }
 }
 
-bool Rescuer::finish() {
-  const bool better = is_better();
+// One trial.  `change` returns the point to settle, -1 when it is not possible.  What failed is not tried
+// again before something beside its points has changed.
+template <class Change>
+bool Rescuer::attempt(const Site& site, Index last_change, bool deep, Change change) {
+  const auto [it, is_new] = failed_.try_emplace(site, 0);
+  if (it->second >= last_change || tries_left_[effort_] == 0) return false;
+  ++tries_;
+  --tries_left_[effort_];
+  mesh_.begin_trial();
+  const Index v = change();
+  if (v >= 0) {
+    settle(v);
+    if (deep) follow_up();
+  }
+  const bool better = v >= 0 && is_better();
   mesh_.end_trial(better);
+  it->second = mesh_.now();
   return better;
 }
 
-bool Rescuer::insert(Index tet, bool deep) {
-  for (int place = 0; place < Inserter::kPlaces; ++place) {
-    mesh_.begin_trial();
-    const bool done = inserter_.insert(tet, place);
-    if (done) settle(mesh_.vertex_count() - 1);
-    if (done && deep) follow_up();
-    if (finish()) return true;
-  }
-  return false;
+bool Rescuer::insert(Index tet, int place, bool deep) {
+  const Triangle points = inserter_.site(tet, place);
+  if (place > 0 && points[0] < 0) return false;
+  const Index kind = deep ? kDeepInsertion : kInsertion;
+  Index last = 0;
+  for (const Index v : points)
+    if (v >= 0) last = std::max(last, mesh_.last_change(v));
+  const auto change = [&] { return inserter_.insert(tet, place) ? mesh_.vertex_count() - 1 : -1; };
+  if (place == 0) return attempt({kind, tet, -1, -1}, mesh_.last_change(mesh_.tet(tet)), deep, change);
+  return attempt({kind, points[0], points[1], points[2]}, last, deep, change);
 }
 
 // The shortest edges, each to either end.
@@ -101,20 +127,30 @@ bool Rescuer::contract(Index tet) {
   for (int k = 0; k < kEdges; ++k)
     for (int end = 0; end < 2; ++end) {
       const Index from = edges[k].second[end], to = edges[k].second[1 - end];
-      mesh_.begin_trial();
-      if (contractor_.contract(from, to)) settle(to);
-      if (finish()) return true;
+      const Index last = std::max(mesh_.last_change(from), mesh_.last_change(to));
+      const auto change = [&] { return contractor_.contract(from, to) ? to : -1; };
+      if (attempt({kContraction, from, to, -1}, last, false, change)) return true;
     }
   return false;
 }
 
-bool Rescuer::rescue(Index tet) {
-  failed_.resize(mesh_.slot_count(), 0);
-  if (tries_left_ == 0 || failed_[tet] == mesh_.bad(tet) || is_fixed(tet)) return false;
-  --tries_left_;
-  if (insert(tet, false) || contract(tet)) return true;
-  if (mesh_.bad(tet) > badness_at(kDeepAngle) && insert(tet, true)) return true;
-  failed_[tet] = mesh_.bad(tet);
+bool Rescuer::insert(Index tet, int first, int last, bool deep) {
+  for (int place = first; place < last; ++place)
+    if (insert(tet, place, deep)) return true;
+  return false;
+}
+
+// What helps most for its time, what helps less, what takes long.
+bool Rescuer::rescue(Index tet, int effort) {
+  if (is_fixed(tet)) return false;
+  for (effort_ = 0; effort_ <= std::min(effort, kMostEffort); ++effort_) {
+    if (tries_left_[effort_] == 0) continue;
+    if (mesh_.bad(tet) < badness_at(kEfforts[effort_].angle)) return false;
+    if (effort_ == 0 && (contract(tet) || insert(tet, 1, 3, false))) return true;
+    if (effort_ == 1 && (insert(tet, 0, 1, false) || insert(tet, 3, 5, false) || insert(tet, 7, 11, false)))
+      return true;
+    if (effort_ == 2 && (insert(tet, 5, 7, false) || insert(tet, 0, Inserter::kPlaces, true))) return true;
+  }
   return false;
 }
 

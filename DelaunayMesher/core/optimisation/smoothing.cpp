@@ -99,13 +99,19 @@ bool Smoother::descend(Index v) {
   if (!(length > 0)) return false;
   direction = (size_ / length) * direction;
   const Vec3 from = place_;
-  const auto at = [&](double s) { return geometry_.project(entity, from + s * direction); };
+  // Beside the point on the face, the one in the tangent plane shows what comes of it for much less.
+  const bool curved = entity.dimension == 2 && !geometry_.is_plane(entity.index);
+  const auto go = [&](double s) {
+    const Vec3 p = from + s * direction;
+    if (curved && !(fan_score(fan_, p, soft_, trial_bad_.data()).sum < now_.sum)) return false;
+    return attempt(v, geometry_.project(entity, p));
+  };
   double s = stride_;
-  bool moved = attempt(v, at(s));
+  bool moved = go(s);
   if (moved) {
-    while (s < 0.2 && attempt(v, at(2 * s))) s *= 2;
+    while (s < 0.2 && go(2 * s)) s *= 2;
   } else {
-    while (!moved && s > 0.02) moved = attempt(v, at(s *= 0.5));
+    while (!moved && s > 0.02) moved = go(s *= 0.5);
   }
   stride_ = std::clamp(s, 0.02, 0.2);
   return moved;
