@@ -15,19 +15,25 @@ class Partition {
  public:
   explicit Partition(LabelledTriangulation& mesh) : mesh_(mesh), tets_(mesh.tets), complex_(mesh.boundary) {}
 
-  Index run(const std::vector<Index>& missing) {
+  Replaced run(const std::vector<Index>& missing) {
     collect_faces_at_points();
     measure_windings();
     find_near(missing);
-    for (const Index t : missing)
-      if (complex_.alive(t)) complex_.remove(t);
+    for (const Index t : missing) {
+      if (!complex_.alive(t)) continue;
+      touch(complex_.corners(t));
+      complex_.remove(t);
+    }
     tag_rooms();
     empty_impossible_contacts();
-    const Index replaced = drop_labels_inside() + label_interfaces();
+    replaced_.triangles = drop_labels_inside() + label_interfaces();
     drop_repeated_labels();
     complex_.drop_bare_segments();
     free_bare_points();
-    return replaced;
+    std::vector<Index>& points = replaced_.points;
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return std::move(replaced_);
   }
 
  private:
@@ -191,6 +197,7 @@ class Partition {
         const Index here = tets_.tag(t), beyond = tets_.tag(tets_.neighbour(t, i) / 4);
         if (here == (in_front ? front : behind) && beyond == (in_front ? behind : front)) continue;
         set_marked_both(tets_, 4 * t + i, false);
+        touch(complex_.corners(label));
         complex_.remove(label);
         ++dropped;
       }
@@ -221,6 +228,7 @@ class Partition {
     Triangle q = corners;
     if (corner_in_front(v, i, q) != want_front) std::swap(q[1], q[2]);
     complex_.add(q[0], q[1], q[2], face);
+    touch(q);
     set_marked_both(tets_, 4 * t + i, true);
   }
 
@@ -262,18 +270,23 @@ class Partition {
       if (complex_.on_boundary(v) && complex_.triangles_at(v).empty()) complex_.set_entity(v, {3, 0});
   }
 
+  void touch(const Triangle& corners) {
+    replaced_.points.insert(replaced_.points.end(), corners.begin(), corners.end());
+  }
+
   LabelledTriangulation& mesh_;
   Triangulation& tets_;
   BoundaryComplex& complex_;
   std::vector<std::vector<Index>> faces_at_;
   std::map<Index, std::array<Index, 2>> solids_of_;
   std::vector<std::pair<Index, WindingNumber>> windings_;  // of solids
-  std::vector<char> near_;                                 // by tetrahedron
+  Replaced replaced_;
+  std::vector<char> near_;  // by tetrahedron
 };
 
 }  // namespace
 
-Index partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing) {
+Replaced partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing) {
   return Partition(mesh).run(missing);
 }
 

@@ -17,8 +17,12 @@
 
 namespace dm {
 
-// Returns the number of boundary triangles that were replaced.  Throws Failure("boundary", "leak") when no
-// CAD face has the two solids that meet.
-Index partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing);
+struct Replaced {
+  Index triangles = 0;        // boundary triangles
+  std::vector<Index> points;  // corners of these and of those that were missing, ascending
+};
+
+// Throws Failure("boundary", "leak") when no CAD face has the two solids that meet.
+Replaced partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing);
 
 }  // namespace dm

@@ -4,9 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <map>
+#include <numeric>
 
 #include "../surfaces/shapes.h"
 #include "boundary/partition.h"
+#include "boundary/weld.h"
 #include "surfaces/crossings.h"
 #include "surfaces/remesh.h"
 
@@ -356,4 +358,41 @@ TEST_CASE("recovery: where faces cross, no points are put in, and the solid is w
   for (Index v = 0; v < mesh.tets.vertex_count(); ++v)
     bare += mesh.boundary.on_boundary(v) && mesh.boundary.triangles_at(v).empty();
   CHECK(bare == 0);
+}
+
+TEST_CASE("weld: points far from each other stay apart") {
+  const Case c{"two boxes", shapes::two_boxes(), 0.8};
+  Stages stages(c);
+  RecoveryReport report;
+  const auto mesh =
+      recover_boundary(stages.surface, c.shape.plc, stages.geometry, stages.size, stages.context, report);
+  std::vector<Index> all(mesh.tets.vertex_count());
+  std::iota(all.begin(), all.end(), 0);
+  SurfaceMesh welded;
+  CHECK_FALSE(weld_points(mesh, c.shape.plc, all, welded));
+}
+
+TEST_CASE("recovery: sheets that cross at next to no angle become one") {
+  shapes::Shape shape;
+  shapes::box_walls(shape, {0, 0, 0}, {4, 4, 4}, 1, false, 0);
+  shapes::box_walls(shape, {0.9, 1.1, 2}, {3, 2.9, 4 + 1e-3}, 1, false, 0);
+  const Geometry geometry(shape.plc, shape.records);
+  Context context;
+  SizeOptions options = Stages::options(0.5);
+  options.elements_across = 0;
+  const SizeField size(shape.plc, geometry, options, context);
+  RecoveryReport report;
+  const auto mesh = recover_boundary(mesh_surfaces(shape.plc, geometry, size, {}, context), shape.plc,
+                                     geometry, size, context, report);
+  check_boundary(mesh);
+  CHECK(report.replaced > 0);
+  CHECK(solid_volume(mesh, 1) == doctest::Approx(64).epsilon(1e-3));
+  double shortest = HUGE_VAL;
+  for (Index t = 0; t < mesh.boundary.slot_count(); ++t) {
+    if (!mesh.boundary.alive(t)) continue;
+    const auto& q = mesh.boundary.corners(t);
+    for (int i = 0; i < 3; ++i)
+      shortest = std::min(shortest, distance(mesh.tets.point(q[i]), mesh.tets.point(q[(i + 1) % 3])));
+  }
+  CHECK(shortest > 0.01);
 }
