@@ -65,7 +65,7 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
   triangles = {mesh_.find_triangle(a, b, c), mesh_.find_triangle(a, b, d)};
   if (triangles[0] < 0 || triangles[1] < 0) return false;
   const Index face = mesh_.triangle_face(triangles[0]);
-  if (mesh_.triangle_face(triangles[1]) != face || share_edge(mesh_, c, d)) return false;
+  if (mesh_.triangle_face(triangles[1]) != face) return false;
   const auto area = [&](const Triangle& t) {
     return area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]));
   };
@@ -89,6 +89,7 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
 bool Flipper::flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geometry) {
   Ring ring;
   if (!find_open_ring(tet, ia, ib, ring)) return false;
+  if (share_edge(mesh_, ring.corner[0], ring.corner[ring.count - 1])) return false;
   const int tets = std::min(ring.count, kMaxRing) - 1;
   double worst = 0;
   for (int i = 0; i < tets; ++i) worst = std::max(worst, mesh_.bad(ring.tet[i]));
@@ -107,11 +108,43 @@ bool Flipper::flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geom
   return !apply(plan).empty();
 }
 
+bool Flipper::is_on_boundary(Index a, Index b) {
+  for (const Index t : mesh_.star(a)) {
+    const Tet& c = mesh_.tet(t);
+    if (std::find(c.begin(), c.end(), b) == c.end()) continue;
+    for (int i = 0; i < 4; ++i)
+      if (mesh_.marked(t, i) && c[i] != a && c[i] != b) return true;
+  }
+  return false;
+}
+
+// The four points of `tet` lie on a curved face, and either diagonal is as good a boundary: it goes, and the
+// two faces behind it become the boundary.
+bool Flipper::peel(Index tet, int ia, int ib, const Geometry& geometry) {
+  const Tet c = mesh_.tet(tet);
+  Ring ring;
+  ring.a = c[ia];
+  ring.b = c[ib];
+  for (int i = 0; i < 4; ++i) {
+    const bool at_edge = i == ia || i == ib;
+    if (at_edge == mesh_.marked(tet, i) || mesh_.pinched(c[i])) return false;
+    if (!at_edge && mesh_.neighbour(tet, i) >= 0) return false;
+    if (!at_edge) ring.corner[ring.count++] = c[i];
+  }
+  std::array<Index, 2> triangles;
+  std::array<Triangle, 2> turned;
+  if (is_on_boundary(ring.corner[0], ring.corner[1]) || !keeps_surface(ring, geometry, triangles, turned))
+    return false;
+  for (int i = 0; i < 2; ++i) mesh_.set_triangle(triangles[i], turned[i], mesh_.triangle_face(triangles[i]));
+  mesh_.replace({&tet, 1}, {});
+  return true;
+}
+
 bool Flipper::improve_boundary(Index tet, const Geometry& geometry) {
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j)
       if (!mesh_.interior(mesh_.tet(tet)[i]) && !mesh_.interior(mesh_.tet(tet)[j]) &&
-          flip_boundary_edge(tet, i, j, geometry))
+          (flip_boundary_edge(tet, i, j, geometry) || peel(tet, i, j, geometry)))
         return true;
   return false;
 }

@@ -237,6 +237,21 @@ Index EditMesh::take_slot() {
   return slot_count() - 1;
 }
 
+void EditMesh::mark_face(Index link) {
+  if (in_trial_) note_tet(link / 4);
+  marks_[link / 4] |= static_cast<std::uint8_t>(1 << link % 4);
+}
+
+// A tetrahedron that stays takes care of points that those beside it have left.
+void EditMesh::expose(Index tet) {
+  for (const Index v : mesh_.tets[tet]) {
+    if (vertex_tet_[v] >= 0) continue;
+    if (in_trial_) note(kVertexTet, v, -1);
+    vertex_tet_[v] = tet;
+  }
+  note_change({&tet, 1});
+}
+
 std::span<const Index> EditMesh::replace(std::span<const Index> before, std::span<const Tet> after,
                                          std::span<const Index> solids, std::span<const Triangle> boundary) {
   struct OpenFace {
@@ -299,7 +314,7 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
       }
       if (match->marked) {
         marks_[t] |= static_cast<std::uint8_t>(1 << i);
-        if (!match->outside) marks_[match->link / 4] |= static_cast<std::uint8_t>(1 << match->link % 4);
+        if (!match->outside) mark_face(match->link);
       }
       *match = open[--count];
     }
@@ -309,9 +324,10 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
     }
   }
   for (int k = 0; k < count; ++k) {  // new faces of the boundary
-    if (open[k].outside) continue;
+    if (open[k].link < 0) continue;
+    if (open[k].outside) expose(open[k].link / 4);
+    mark_face(open[k].link);
     mesh_.neighbours[open[k].link / 4][open[k].link % 4] = -1;
-    marks_[open[k].link / 4] |= static_cast<std::uint8_t>(1 << open[k].link % 4);
   }
   note_change(created_);
   return created_;

@@ -126,7 +126,8 @@ class EditMesh {
   void add_triangle(const Triangle& corners, Index face);
   void add_segment(const Segment& ends, Index edge);
   // Puts `after` in the place of `before`.  Precondition: one solid, no marked inner face; same outer faces
-  // but for those without neighbour: they may change, and the new ones are marked. Returns the slots of the
+  // but for those without neighbour: they may change, and the new ones are marked. Without `after` the outer
+  // faces become boundary.  Returns the slots of the
   // new tetrahedra; the span is valid until the next call.
   std::span<const Index> replace(std::span<const Index> before, std::span<const Tet> after) {
     return replace(before, after, {}, {});
@@ -150,6 +151,8 @@ class EditMesh {
   void mark_boundary();
   void list_boundary();
   Index take_slot();
+  void mark_face(Index link);
+  void expose(Index tet);
   void note_tet(Index t);
   void note(int kind, Index index, Index value = 0);
   void take_back();

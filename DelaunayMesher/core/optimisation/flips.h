@@ -40,7 +40,8 @@ class Flipper {
   std::span<const Index> apply(const Plan& plan);  // the new tetrahedra
   // Flip of a boundary edge inside one CAD face together with the tetrahedra round it, for the worst element.
   // The two triangles become the other two of their quadrilateral; on a curved face only if the new edge lies
-  // as close to the face and the normals turn by less than 25 degrees.
+  // as close to the face and the normals turn by less than 25 degrees.  A tetrahedron with both triangles,
+  // between the two diagonals, leaves the mesh.
   bool improve_boundary(Index tet, const Geometry& geometry);
 
  private:
@@ -55,6 +56,8 @@ class Flipper {
   bool keeps_surface(const Ring& ring, const Geometry& geometry, std::array<Index, 2>& triangles,
                      std::array<Triangle, 2>& turned);
   bool flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geometry);
+  bool is_on_boundary(Index a, Index b);
+  bool peel(Index tet, int ia, int ib, const Geometry& geometry);
   void start(FlipGoal goal, Plan& plan);
   void plan_edge_removal(Index tet, int ia, int ib, int longest, Plan& best);
   void plan_face_removal(Index tet, int face, Plan& best) const;

@@ -13,7 +13,7 @@ struct Effort {
   double angle;        // degrees: elements below it are worth it
   Index tries, share;  // so many are tried, and one more for so many tetrahedra
 };
-constexpr Effort kEfforts[] = {{30, 4000, 15}, {30, 2000, 40}, {27, 2000, 40}};
+constexpr Effort kEfforts[] = {{30, 5000, 8}, {30, 1500, 60}, {27, 1500, 60}};
 
 }  // namespace
 

@@ -91,3 +91,42 @@ TEST_CASE("boundary flips keep every invariant of a random mesh") {
   }
   CHECK(flips > 0);
 }
+
+// Below the base of the pyramid, bent down at its short diagonal: two triangles of the base are its own.
+TEST_CASE("a flat tetrahedron with two triangles of a CAD face is peeled off, or put back by a trial") {
+  auto s = pyramid(0.5, 0.5);
+  s.mesh.points[2].z = s.mesh.points[3].z = -0.1;
+  s.mesh.tets.push_back({0, 1, 2, 3});
+  s.mesh.tet_solid.push_back(1);
+  sample::link(s.mesh);
+  s.mesh.triangles.clear();
+  s.mesh.triangle_face.clear();
+  Index sides = 0;
+  sample::add_boundary(s.mesh,
+                       [&](const Triangle& t) { return t[0] < 4 && t[1] < 4 && t[2] < 4 ? 0 : ++sides; });
+  s.plc = sample::boundary_plc(s.mesh, 5, 0);
+  const Geometry geometry(s.plc, s.records);
+  const VolumeMesh before = s.mesh;
+  EditMesh edit(s.mesh);
+  Flipper flipper(edit);
+  edit.start_clock();
+  edit.begin_trial();
+  CHECK(flipper.improve_boundary(2, geometry));
+  edit.end_trial(false);
+  CHECK(s.mesh.tets == before.tets);
+  CHECK(s.mesh.neighbours == before.neighbours);
+  CHECK(s.mesh.triangles == before.triangles);
+  const Index start = edit.now();
+  CHECK(!flipper.improve_boundary(0, geometry));
+  CHECK(flipper.improve_boundary(2, geometry));
+  for (Index v = 0; v < 5; ++v) CHECK(edit.last_change(v) > start);
+  edit.finish();
+  check_volume_mesh(s.mesh);
+  CHECK(s.mesh.tets.size() == 2);
+  for (std::size_t k = 0; k < s.mesh.triangles.size(); ++k) {
+    if (s.mesh.triangle_face[k] != 0) continue;
+    const Triangle& t = s.mesh.triangles[k];
+    CHECK(((t[0] == 0 || t[1] == 0 || t[2] == 0) && (t[0] == 1 || t[1] == 1 || t[2] == 1)));
+    CHECK(area_vector(s.mesh.points[t[0]], s.mesh.points[t[1]], s.mesh.points[t[2]]).z < 0);  // outward
+  }
+}
