@@ -95,7 +95,7 @@ OPTIONS = (
         "MinSize", "App::PropertyLength", "Size", "Min size", "mm", True, metavar="MM",
     ),
     Option(
-        "growth", "float", 0.25, 0, 10,
+        "growth", "float", 0.35, 0, 10,
         "how fast the size may grow: mm of size per mm of distance",
         "Growth", "App::PropertyFloat", "Size", "Growth rate", "", True, metavar="RATE",
     ),
@@ -155,7 +155,7 @@ class MeshOptions:
 
     max_size: Optional[float] = None
     min_size: Optional[float] = None
-    growth: float = 0.25
+    growth: float = 0.35
     elements_per_circle: float = 12.0
     elements_across: float = 2.0
     order: int = 1

@@ -74,7 +74,7 @@ def preferences(part):
     page.loadSettings()
     assert fields["order"].value() == 1
     fields["order"].set(2)
-    fields["growth"].set(0.25)
+    fields["growth"].set(0.35)
     assert page.colours["ColourBad"].property("color") == chosen
     default = QtGui.QColor.fromRgbF(*colours.DEFAULTS["ColourBad"])
     page.colours["ColourBad"].setProperty("color", default)

@@ -53,7 +53,7 @@ class LayerMatcher {
   }
 
  private:
-  double edge_size(const Vec3& p) const { return 0.8 * size_.at(p); }
+  double edge_size(const Vec3& p) const { return kBoundaryEdge * size_.at(p); }
   const Vec3& at(Index v) const { return mesh_.points[v]; }
   Vec3 area_of(const Triangle& t) const { return area_vector(at(t[0]), at(t[1]), at(t[2])); }
 

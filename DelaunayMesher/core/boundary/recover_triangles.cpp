@@ -108,7 +108,7 @@ class Recovery {
   double edge_size(const Vec3& p, const Points& corners) const {
     double sum = 0;
     for (const Index v : corners) sum += edge_at_[v];
-    return std::min(0.8 * size_.at(p), sum / static_cast<double>(std::size(corners)));
+    return std::min(kBoundaryEdge * size_.at(p), sum / static_cast<double>(std::size(corners)));
   }
 
   void label(Index t) {

@@ -1,5 +1,6 @@
 #include "sizing/proximity.h"
 
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -10,28 +11,36 @@ namespace dm {
 
 namespace {
 
-constexpr double kFree = 2.5, kFreeOptimised = 3, kTight = 1.85, kGap = 6;  // size per width; see the header
+// Edges of the boundary per width, and so the sizes per width; see the header.
+constexpr double kFree = 2.0 / kBoundaryEdge, kFreeOptimised = 2.4 / kBoundaryEdge,
+                 kTight = 1.48 / kBoundaryEdge, kGap = 4.8 / kBoundaryEdge;
 constexpr double kTightWithin = 2;  // the other side is tight up to this many widths
 constexpr double kOpposed = 0.966;  // cosine between ray and normal: 15 degrees
-constexpr double kContact = 1e-6;   // of the diagonal: narrower than this, faces touch and there is no gap
+// A gap is a point of contact if it spans less than so many of the sizes by other sources, and closes to less
+// than this part of its width.
+constexpr double kPoint = 2.5, kClosing = 0.1;
+constexpr double kContact = 1e-6;  // of the diagonal: narrower than this, faces touch and there is no gap
 constexpr int kDeepestSplit = 20;
 constexpr std::int64_t kMostPlaces = 150'000;
 // Walls and gaps may cost this many times the elements of the rest, and this many in any case.
 constexpr double kBudgetFactor = 3, kBudget = 100'000;
 // Elements per h^2 of boundary: one side of a thin wall, and what grows from a boundary into a thick solid
 // (the integral of 1 / (0.106 (h + g z)^3) over the depth z), times g.
-constexpr double kWallElements = 6, kGrownElements = 4.7;
+constexpr double kWallElements = 3.84 / (kBoundaryEdge * kBoundaryEdge), kGrownElements = 4.7;
 
 struct Patch {
   std::array<Vec3, 3> corner;
   double size;
-  double width;      // of the wall or gap
-  double curvature;  // of the two sides, the larger
+  double local_size;  // by the other sources
+  double width;       // of the wall or gap
+  double curvature;   // of the two sides, the larger
   bool wall;
   int empty_side;
 };
 
 double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
+
+Vec3 middle(const std::array<Vec3, 3>& p) { return (1.0 / 3) * (p[0] + p[1] + p[2]); }
 
 class Prober {
  public:
@@ -56,7 +65,7 @@ class Prober {
     normal_ = normalized(normal);
     if (!(longest(p) < local_size)) return visit(p, 0);
     // Of the triangles of a fine tessellation one per face and cube is enough.
-    const auto [known, first] = seen_.try_emplace(cube((1.0 / 3) * (p[0] + p[1] + p[2])));
+    const auto [known, first] = seen_.try_emplace(cube(middle(p)));
     if (!first) return known->second.add(walls, 0.5 * norm(normal));
     const std::size_t begin = walls.size();
     visit(p, 0);
@@ -147,15 +156,15 @@ class Prober {
   }
 
   void visit(const std::array<Vec3, 3>& p, int depth) {
-    const Vec3 middle = (1.0 / 3) * (p[0] + p[1] + p[2]);
+    const Vec3 centre = middle(p);
     const double edge = longest(p);
     if (edge <= 4 * local_size_)
-      if (const auto known = clear_.find(cube(middle)); known != clear_.end())
+      if (const auto known = clear_.find(cube(centre)); known != clear_.end())
         return known->second.add(walls, area(p));
-    double low = size_at(middle), high = low;
+    double low = size_at(centre), high = low;
     if (edge > std::min(local_size_, low))
       for (const Vec3& corner : p) {
-        const double s = size_unless_clear(0.9 * corner + 0.1 * middle);
+        const double s = size_unless_clear(0.9 * corner + 0.1 * centre);
         low = std::min(low, s);
         high = std::max(high, s);
       }
@@ -166,8 +175,9 @@ class Prober {
     if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
       const std::size_t begin = walls.size();
       if (low < HUGE_VAL && wall_) walls.push_back({p, width_});
-      if (!found) clear_.try_emplace(cube(middle), Sample{begin, walls.size(), area(p)});
-      if (found) patches.push_back({p, low, width_, curvature(middle), wall_, empty_side(plc_, face_)});
+      if (!found) clear_.try_emplace(cube(centre), Sample{begin, walls.size(), area(p)});
+      if (found)
+        patches.push_back({p, low, local_size_, width_, curvature(centre), wall_, empty_side(plc_, face_)});
       return;
     }
     // In two across the longest edge, so that slivers make few parts.
@@ -217,6 +227,56 @@ double affordable(const std::vector<Patch>& patches, double growth, double budge
   return to;
 }
 
+using GapCells =
+    std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>>;  // gaps in cubes of half a size
+
+// Takes out the gaps of a cell and of all that hang together with it.
+std::vector<std::size_t> take_group(GapCells& cells) {
+  std::vector<GapCells::node_type> taken;
+  taken.push_back(cells.extract(cells.begin()));
+  std::vector<std::size_t> group;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    group.insert(group.end(), taken[i].mapped().begin(), taken[i].mapped().end());
+    const auto [x, y, z] = taken[i].key();
+    for (int k = 0; k < 27; ++k)
+      if (GapCells::node_type next = cells.extract({x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1}))
+        taken.push_back(std::move(next));
+  }
+  return group;
+}
+
+bool is_point_of_contact(const std::vector<Patch>& patches, const std::vector<std::size_t>& group) {
+  Box box;
+  double local_size = HUGE_VAL, narrowest = HUGE_VAL, widest = 0;
+  for (const std::size_t i : group) {
+    box.add(middle(patches[i].corner));
+    local_size = std::min(local_size, patches[i].local_size);
+    narrowest = std::min(narrowest, patches[i].width);
+    widest = std::max(widest, patches[i].width);
+  }
+  const Vec3 extent = box.extent();
+  return std::max({extent.x, extent.y, extent.z}) < kPoint * local_size && narrowest < kClosing * widest;
+}
+
+// Leaves out gaps that are narrow only round a point, as where a ball touches a plane: a few elements lie
+// there whatever their size, and sizes that go to zero towards the point would be many.
+void leave_out_points_of_contact(std::vector<Patch>& patches, double max_size) {
+  GapCells cells;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches[i].wall) continue;
+    const Vec3 q = (2 / max_size) * middle(patches[i].corner);
+    cells[{std::llround(q.x), std::llround(q.y), std::llround(q.z)}].push_back(i);
+  }
+  std::vector<char> drop(patches.size(), 0);
+  while (!cells.empty()) {
+    const std::vector<std::size_t> group = take_group(cells);
+    if (is_point_of_contact(patches, group))
+      for (const std::size_t i : group) drop[i] = 1;
+  }
+  std::size_t i = 0;
+  std::erase_if(patches, [&](const Patch&) { return drop[i++] != 0; });
+}
+
 }  // namespace
 
 ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const BoundaryTree& boundary,
@@ -235,6 +295,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
     others += 0.5 * twice * kWallElements / (triangle_size[t] * triangle_size[t]);
   }
   result.walls = std::move(prober.walls);
+  leave_out_points_of_contact(prober.patches, options.max_size);
   const double budget = std::max(kBudget, kBudgetFactor * others);
   const auto least = [&](double from, double factor) {
     if (options.min_size > 0) return from;
@@ -247,7 +308,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
     patch.size = std::max(wanted, floor);
     if (wanted < floor && patch.curvature > 0) {
       // Facets of curved faces must not cross the gap: their sagitta stays below a third of its width.
-      const double sagitta = std::sqrt(8 * patch.width / (3 * patch.curvature)) / 0.8;
+      const double sagitta = std::sqrt(8 * patch.width / (3 * patch.curvature)) / kBoundaryEdge;
       patch.size = std::min(patch.size, std::max({sagitta, wanted, limits.crossing}));
     }
   }

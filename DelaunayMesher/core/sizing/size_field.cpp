@@ -16,7 +16,7 @@ namespace {
 
 // Elements per volume / h^3 and per boundary area / h^2, and, per area / h^2 of each side, what a wall
 // thinner than kThickWall * h has in addition for each h that it is thinner; fitted to finished meshes.
-constexpr double kPerVolume = 9.5, kPerArea = 1.45;
+constexpr double kPerVolume = 9.5, kPerArea = 1.2;
 constexpr double kPerWallArea = 5.5, kThickWall = 0.98, kMostPerWallArea = 3.9;
 
 double domain_volume(const Plc& plc) {

@@ -23,9 +23,9 @@ void check_options(const SizeOptions& options);
 void add_given_sizes(const Plc& plc, const SizeOptions& options, std::vector<double>& triangle_size,
                      std::vector<SizeSource>& sources);
 
-// 2 pi r / (0.8 elements_per_circle) on curved faces and edges, so that that many boundary edges of 0.8 h go
-// around a circle; r from the CAD's curvature, or from the angles between the triangles of a smooth face that
-// is known by its facets only.
+// 2 pi r / (kBoundaryEdge * elements_per_circle) on curved faces and edges, so that that many edges of the
+// boundary go around a circle; r from the CAD's curvature, or from the angles between the triangles of a
+// smooth face that is known by its facets only.
 void add_curvature(const Plc& plc, const Geometry& geometry, const SizeOptions& options,
                    const SizeLimits& limits, Context& context, std::vector<double>& triangle_size,
                    std::vector<SizeSource>& sources);

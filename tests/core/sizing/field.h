@@ -23,6 +23,7 @@ struct Field {
 inline SizeOptions plain(double max_size) {
   SizeOptions options;
   options.max_size = max_size;
+  options.growth = 0.25;
   options.elements_per_circle = options.elements_across = 0;
   return options;
 }
@@ -39,6 +40,6 @@ inline Vec3 random_in(Random& random, const Vec3& a, const Vec3& b) {
 }
 
 // Elements per volume / h^3 and per boundary area / h^2 (docs/sizing.md).
-inline constexpr double kPerVolume = 9.5, kPerArea = 1.45;
+inline constexpr double kPerVolume = 9.5, kPerArea = 1.2;
 
 }  // namespace dm::test

@@ -8,22 +8,23 @@ using namespace dm;
 using test::across;
 using test::Field;
 
-TEST_CASE("a free wall gets 2.5 times its thickness") {
+TEST_CASE("boundary edges of a free wall are twice its thickness") {
+  const double h = 2 / kBoundaryEdge;
   Field f(test::box({0, 0, 0}, {50, 50, 1}), across(10));
-  for (double x = 3; x < 50; x += 4) CHECK(f.at({x, 25, 0.5}) == doctest::Approx(2.5).epsilon(0.1));
+  for (double x = 3; x < 50; x += 4) CHECK(f.at({x, 25, 0.5}) == doctest::Approx(h).epsilon(0.1));
   CHECK(f.field.warnings().empty());
   Field finer(test::box({0, 0, 0}, {50, 50, 1}), across(10, 4));
-  CHECK(finer.at({25, 25, 0}) == doctest::Approx(1.25).epsilon(0.1));
+  CHECK(finer.at({25, 25, 0}) == doctest::Approx(h / 2).epsilon(0.1));
   Field off(test::box({0, 0, 0}, {50, 50, 1}), across(10, 0));
   CHECK(off.at({25, 25, 0}) == 10);
 }
 
-TEST_CASE("a wall with a tight gap beside it gets 1.85 times its thickness") {
+TEST_CASE("boundary edges of a wall with a tight gap beside it are 1.48 times its thickness") {
   test::Shape shape;
   test::add_box(shape.plc, {0, 0, 0}, {20, 20, 1});
   test::add_box(shape.plc, {0, 0, 2}, {20, 20, 3});
   Field f(shape, across(10));
-  CHECK(f.at({10, 10, 1}) == doctest::Approx(1.85).epsilon(0.1));
+  CHECK(f.at({10, 10, 1}) == doctest::Approx(1.48 / kBoundaryEdge).epsilon(0.1));
 }
 
 TEST_CASE("a narrow gap between thick solids") {
@@ -31,8 +32,9 @@ TEST_CASE("a narrow gap between thick solids") {
   test::add_box(shape.plc, {0, 0, 0}, {20, 20, 20});
   test::add_box(shape.plc, {21, 0, 0}, {40, 20, 20});
   Field f(shape, across(10));
-  CHECK(f.at({20, 10, 10}) == doctest::Approx(6).epsilon(0.1));
-  CHECK(f.at({10, 10, 10}) == doctest::Approx(6 + 2.5).epsilon(0.1));
+  const double h = 4.8 / kBoundaryEdge;
+  CHECK(f.at({20, 10, 10}) == doctest::Approx(h).epsilon(0.1));
+  CHECK(f.at({10, 10, 10}) == doctest::Approx(h + 2.5).epsilon(0.1));
 }
 
 TEST_CASE("a wedge is no wall") {
@@ -51,8 +53,8 @@ TEST_CASE("elements grow smoothly while a plate gets thinner, and stay in the bu
     if (before > 0) CHECK(elements < 2.3 * before);
     before = elements;
     const bool limited = !f.field.warnings().empty();
-    if (f.field.smallest() < 2.3 * t) CHECK_FALSE(limited);
-    if (f.field.smallest() > 2.6 * t) CHECK(limited);
+    if (f.field.smallest() < 1.84 / kBoundaryEdge * t) CHECK_FALSE(limited);
+    if (f.field.smallest() > 2.08 / kBoundaryEdge * t) CHECK(limited);
   }
 }
 
@@ -75,4 +77,22 @@ TEST_CASE("cylinders almost touching: small only at the contact") {
     CHECK(f.at({-10, 0, 10}) > 4.5);
     CHECK(f.field.predicted_tetrahedra() < 350'000);
   }
+}
+
+// A ball of radius 10 above a box, nearest at `gap`: the size there.
+static double size_below_ball(double gap, double max_size) {
+  test::Shape shape = test::ball({0, 0, 10 + gap}, 10, 5);
+  test::add_box(shape.plc, {-20, -20, -10}, {20, 20, 0});
+  for (int f = 0; f < 6; ++f) {
+    Vec3 place{0, 0, -5}, normal;
+    normal[f / 2] = f % 2 ? 1 : -1;
+    place = place + (f < 4 ? 20.0 : 5.0) * normal;
+    shape.records.faces.push_back({SurfaceKind::plane, place, normal, 0, 0, -1});
+  }
+  return Field(shape, across(max_size)).at({0.3, 0.3, 0});
+}
+
+TEST_CASE("where a ball all but touches a plane, no small elements") {
+  CHECK(size_below_ball(0.002, 4) == 4);
+  CHECK(size_below_ball(0.002, 0.5) < 0.3);  // many elements lie in the gap
 }

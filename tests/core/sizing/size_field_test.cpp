@@ -75,7 +75,7 @@ TEST_CASE("curvature gives elements per circle") {
   test::add_cylinder(shape, {0, 0, 0}, 1, 20, 36);
   test::finish(shape);
   Field f(shape, options);
-  const double h = 2 * std::numbers::pi / 12 / 0.8;
+  const double h = 2 * std::numbers::pi / 12 / kBoundaryEdge;
   CHECK(f.field.at({1, 0, 10}) == doctest::Approx(h).epsilon(0.1));
   CHECK(f.field.at({0, 0, 10}) == doctest::Approx(h + 0.25).epsilon(0.1));
 }
@@ -158,7 +158,7 @@ TEST_CASE("facets without CAD give curvature by their angles") {
   test::add_segments(shape.plc);
   shape.records = {};
   Field f(shape, options);
-  CHECK(f.at({1, 0, 10}) == doctest::Approx(2 * std::numbers::pi / 12 / 0.8).epsilon(0.15));
+  CHECK(f.at({1, 0, 10}) == doctest::Approx(2 * std::numbers::pi / 12 / kBoundaryEdge).epsilon(0.15));
 }
 
 TEST_CASE("same field, byte for byte, and for a scaled model the scaled field") {
