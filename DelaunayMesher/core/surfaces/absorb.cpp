@@ -30,6 +30,7 @@ class Clusters {
     while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
     return p;
   }
+  bool is_joined(Index p) { return norm2(box_[find(p)].extent()) > 0; }
   // False, and nothing done, if the joined points would extend over more than `widest`.
   bool join(Index p, Index q, double widest) {
     p = find(p);
@@ -92,16 +93,19 @@ class Absorber {
       rank_[plc_.corners[c]] = std::min(rank_[plc_.corners[c]], plc_.corner_vertex[c]);
   }
 
-  // Where too many would come together (a curve of many tiny edges), the longer ones stay.
+  // In rows of points closer to each other than the tolerance those come together that are next to each
+  // other; where a point would be left alone by that, all of it stays.
   void join_points() {
     Clusters clusters(plc_.points);
+    std::vector<std::pair<Index, Index>> skipped;  // feature, point
     for (std::size_t k = 0; k < features_.size(); ++k)
       for (const auto& [p, q] : features_[k]) {
         if (!active_[k]) break;
         if (clusters.join(p, q, kWidest * tolerance_(plc_.points[p]))) continue;
-        refused_.push_back(static_cast<Index>(k));
-        break;
+        for (const Index alone : {p, q}) skipped.emplace_back(static_cast<Index>(k), alone);
       }
+    for (const auto& [k, p] : skipped)
+      if (!clusters.is_joined(p) && (refused_.empty() || refused_.back() != k)) refused_.push_back(k);
     const Index n = static_cast<Index>(plc_.points.size());
     std::vector<Index> best(n, -1);
     for (Index p = 0; p < n; ++p) {

@@ -238,6 +238,13 @@ TEST_CASE("a narrow ring whose points do not face each other") {
   CHECK(r.smallest_angle > 25);
 }
 
+TEST_CASE("a narrow ring with points closer together than the tolerance") {
+  const Result r(chamfered_cylinder(10, 20, 0.05, 240), 20);
+  CHECK(r.absorbed.faces == std::vector<Index>{1});
+  CHECK(r.absorbed.edges == std::vector<Index>{2});
+  CHECK(r.smallest_angle > 20);
+}
+
 TEST_CASE("a tiny edge becomes a point") {
   for (const double gap : {1e-6, 1e-3, 0.02}) {
     const Result r(tiny_edge(gap), 2);
