@@ -15,6 +15,7 @@ import Part
 from .. import extension
 from ..merge_points import merge_points
 from .cad_elements import CadElements
+from .closed import open_triangles
 from .strips import is_narrow, strip_facets
 
 COARSE_ANGLE = 0.3  # radians
@@ -86,14 +87,19 @@ def vectors_to_array(vectors, count):
 def without_laps(mesh):
     """The Tessellation without the triangles of faces whose edges were put on their surface a turn apart.
 
-    OCC covers such a face several times; without triangles it is filled from its outline (filling.py).
+    OCC covers such a face several times: its triangles overlap, or do not meet those of its neighbours;
+    without triangles it is filled from its outline (filling.py).
     """
-    for number, (face, surface) in enumerate(zip(mesh.cad.faces, mesh.cad.surfaces)):
-        if winds(face, surface):
-            mine = mesh.triangle_face == number
-            if laps_itself(mesh.points, mesh.triangles[mine]):
-                mesh.face_nodes[number] = np.zeros((0, 3))
-                mesh = replace(mesh, triangles=mesh.triangles[~mine], triangle_face=mesh.triangle_face[~mine])
+    winding = [number for number, pair in enumerate(zip(mesh.cad.faces, mesh.cad.surfaces)) if winds(*pair)]
+    if not winding:
+        return mesh
+    rows, _ = open_triangles(mesh.triangles, mesh.cad.sides[mesh.triangle_face], len(mesh.points))
+    ragged = set(mesh.triangle_face[rows].tolist())
+    for number in winding:
+        mine = mesh.triangle_face == number
+        if number in ragged or laps_itself(mesh.points, mesh.triangles[mine]):
+            mesh.face_nodes[number] = np.zeros((0, 3))
+            mesh = replace(mesh, triangles=mesh.triangles[~mine], triangle_face=mesh.triangle_face[~mine])
     return mesh
 
 

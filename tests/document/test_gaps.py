@@ -224,6 +224,22 @@ def test_the_strip_of_a_thread_keeps_its_triangles():
     assert np.linalg.norm(areas, axis=1).sum() / 2 == pytest.approx(45, rel=0.02)
 
 
+def test_a_winding_face_that_does_not_meet_its_neighbours_goes(monkeypatch):
+    cad = CadElements(Part.makeCylinder(5, 10))
+    wall = next(n for n, surface in enumerate(cad.surfaces) if isinstance(surface, Part.Cylinder))
+    monkeypatch.setattr(tessellation, "winds", lambda _, surface: isinstance(surface, Part.Cylinder))
+    assert (tessellate(cad, 0.05, 0.3).triangle_face == wall).any()
+    whole = tessellation.gathered
+
+    def torn(*arguments):
+        mesh = whole(*arguments)
+        rest = np.arange(len(mesh.triangles)) != np.flatnonzero(mesh.triangle_face == wall)[0]
+        return replace(mesh, triangles=mesh.triangles[rest], triangle_face=mesh.triangle_face[rest])
+
+    monkeypatch.setattr(tessellation, "gathered", torn)
+    assert not (tessellate(cad, 0.05, 0.3).triangle_face == wall).any()
+
+
 def test_a_face_that_laps_itself_is_made_from_its_outline(monkeypatch):
     """Its edges lie on the surface's parameters a turn apart; OCC covers it five times then."""
     turned = SimpleNamespace(ParameterRange=(-0.5 * math.pi, 2 * math.pi, 0.0, 1.0))
