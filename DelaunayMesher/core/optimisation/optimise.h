@@ -9,9 +9,8 @@
 // no interior triangle has its corners on one CAD face that did not have them before.
 // The mesh is renumbered (spatial_order.h).  Threads: rounds over the whole mesh use all of the context's,
 // the worst elements one; the result is the same for any number (sweep.h).  Cost: 1 to 1.5 us per
-// tetrahedron, and up to a millisecond for each that needs a rescue, of which there may be 1000 and one per
-// hundred tetrahedra.  Limits: an element at an acute edge, or in a strip or gap far narrower than its size,
-// stays as it is.
+// tetrahedron, up to 20 in thin parts, where the number of rescues is bounded (rescue.h).  Limits: an element
+// at an acute edge, or in a strip or gap far narrower than its size, stays as it is.
 #pragma once
 
 #include "base/context.h"
