@@ -13,7 +13,8 @@ namespace {
 
 // Edges of the boundary per width, and so the sizes per width; see the header.
 constexpr double kFree = 2.0 / kBoundaryEdge, kFreeOptimised = 2.4 / kBoundaryEdge,
-                 kTight = 1.48 / kBoundaryEdge, kGap = 4.8 / kBoundaryEdge;
+                 kBondedOptimised = 2.0 / kBoundaryEdge, kTight = 1.48 / kBoundaryEdge,
+                 kGap = 4.8 / kBoundaryEdge;
 constexpr double kTightWithin = 2;  // the other side is tight up to this many widths
 constexpr double kOpposed = 0.966;  // cosine between ray and normal: 15 degrees
 // A gap is a point of contact if it spans less than so many of the sizes by other sources, and closes to less
@@ -50,6 +51,7 @@ class Prober {
         boundary_(boundary),
         shared_(plc),
         free_(options.optimised ? kFreeOptimised : kFree),
+        bonded_(options.optimised ? kBondedOptimised : kTight),
         per_width_(2 / options.elements_across) {
     epsilon_ = kContact * norm(boundary.box().extent());
   }
@@ -138,8 +140,8 @@ class Prober {
       const double t = w[side].t, behind = w[1 - side].t;
       if (t == HUGE_VAL) continue;
       const bool wall = solids[side] > 0;
-      const bool tight = behind <= kTightWithin * t || (wall && solids[1 - side] > 0);
-      const double h = (tight ? kTight : wall ? free_ : kGap) * t * per_width_;
+      const bool tight = behind <= kTightWithin * t, bonded = solids[1 - side] > 0;
+      const double h = (tight ? kTight : !wall ? kGap : bonded ? bonded_ : free_) * t * per_width_;
       if (h < size) size = h, width_ = t, other_face_ = w[side].face, wall_ = wall;
     }
     return size;
@@ -199,7 +201,7 @@ class Prober {
   const Geometry& geometry_;
   const BoundaryTree& boundary_;
   SharedEdges shared_;
-  double free_, per_width_, epsilon_ = 0, local_size_ = 0, width_ = 0;
+  double free_, bonded_, per_width_, epsilon_ = 0, local_size_ = 0, width_ = 0;
   Index triangle_ = -1, face_ = -1, other_face_ = -1;
   Vec3 normal_;
   bool wall_ = false;

@@ -4,12 +4,13 @@
 // gap (outside) of width t if the triangle that it hits first is roughly opposed: less than 15 degrees
 // from parallel, else it is a taper.  The size is such that the edges of the boundary (kBoundaryEdge of it)
 // are 2 / elements_across * c * t long with c = 2 (2.4 if the mesh will be optimised), 4.8 for gaps, or 1.48
-// when the other side of the place is tight too (a solid, or a gap or wall not wider than 2 t).  Measured
-// limits for a 20 degree mesh before optimisation are 2.1 t and 1.5 t, for free walls after it 2.5 t. Two
-// faces that meet at an acute angle (a wedge, a cusp at a tangent fillet) are no wall near their common edge:
-// there t goes to zero and refinement would never end. Cost: two short rays per place; places are h_local
-// apart, closer where the width varies. Known limit: a feature much smaller than the triangles on both of its
-// sides and the local size can be missed.
+// when the other side of the place is tight too (a gap or wall not wider than 2 t; any solid beside a wall,
+// for which 2 is enough if the mesh will be optimised).  Measured limits for a 20 degree mesh before
+// optimisation are 2.1 t and 1.5 t, for free walls after it 2.5 t. Two faces that meet at an acute angle (a
+// wedge, a cusp at a tangent fillet) are no wall near their common edge: there t goes to zero and refinement
+// would never end. Cost: two short rays per place; places are h_local apart, closer where the width varies.
+// Known limit: a feature much smaller than the triangles on both of its sides and the local size can be
+// missed.
 #pragma once
 
 #include "sizing/boundary_tree.h"
