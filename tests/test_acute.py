@@ -39,7 +39,7 @@ def check_wedge(angle):
 
 def test_wedge_of_5_degrees():
     count, bad = check_wedge(5)
-    assert count < 6000
+    assert count < 5500
     assert bad < 0.1 * count
 
 
