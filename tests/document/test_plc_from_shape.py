@@ -10,6 +10,7 @@ from parts import PARTS, blade, lofted
 from scipy.interpolate import BSpline
 
 import DelaunayMesher
+from DelaunayMesher import extension, pipeline
 from DelaunayMesher.document.cad_elements import CadElements
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.edge_geometry import CIRCLE, LINE, circle_distances
@@ -436,3 +437,21 @@ def test_a_spline_face_without_triangles_needs_no_surface():
     nodes = [np.zeros((0, 3))] * len(cad.faces)
     kinds, _, spline, splines, doubtful = face_records(cad, nodes, np.full(len(cad.faces), 1e-7))
     assert (spline == -1).all() and not splines and not doubtful and len(kinds) == len(cad.faces)
+
+
+@pytest.mark.parametrize("share", [0.97, 0.7])
+def test_a_curve_may_end_short_of_its_vertex(share):
+    """Sewn shells have such edges; all samples beyond the end would lie in one point."""
+    curve = Part.BSplineCurve()
+    curve.interpolate([Vector(0, 0, 0), Vector(10, 4, 0), Vector(20, -3, 0), Vector(30, 0, 0)])
+    rest = Part.makePolygon([Vector(30, 0, 0), Vector(30, 20, 0), Vector(0, 20, 0), Vector(0, 0, 0)])
+    shape = Part.Face(Part.Wire([curve.toShape(), *rest.Edges])).extrude(Vector(0, 0, 5))
+    options = MeshOptions(max_size=1.0)
+    plc = convert(shape, options).plc
+    short = [
+        {**record, "range": (0.0, share * record["range"][1])} for record in plc.geometry["spline_curves"]
+    ]
+    geometry = {**plc.geometry, "spline_curves": short}
+    core_options = pipeline.options_for_core(options, plc)
+    mesh = extension.load().surface_mesh(plc.as_dict(), geometry, core_options)  # checks what it has made
+    assert len(np.unique(mesh["points"], axis=0)) == len(mesh["points"])

@@ -17,6 +17,8 @@ constexpr double kMaxTurn = std::numbers::pi / 2;  // per part of a curve
 constexpr double kPiecesPerPart = 4;               // accuracy of the arc length
 constexpr double kSnap =
     0.1;  // a sample this near to an old point, relative to the old segments, replaces it
+constexpr double kSame = 1e-3;  // of the wanted length: samples beyond the end of a curve that stops short of
+                                // its vertex all lie at that end
 constexpr double kBeside = 0.4;     // distance over length within which samples of two curves are matched
 constexpr double kApart = 0.55;     // least distance of matched samples along the curve, over length
 constexpr double kTouching = 1e-5;  // ... and below which, over that, they are the same place
@@ -251,6 +253,7 @@ class Sampler {
     std::size_t k = 1;
     for (Index i = 1; i <= static_cast<Index>(metrics.size()); ++i) {
       const Vec3 p = point_at(metrics[i - 1], chain.edge, k);
+      if (distance(p, result_.points[last]) < kSame * lengths_.at(p)) continue;
       add_near(p);
       const Index parent = pieces_[k].parent;
       Index v = replaceable(chain, parent, last, p);
