@@ -65,7 +65,7 @@ class SurfaceMesher {
       if (round >= kLastRound && last == kLastRound && has_repeated_points(mesh))
         last = round + kRescueRounds;
       if (round >= last) return mesh;
-      if (!demand_repairs(mesh, round)) return mesh;
+      if (!demand_repairs(mesh)) return mesh;
     }
   }
 
@@ -181,9 +181,10 @@ class SurfaceMesher {
 
   // Where the mesh has defects, asks for smaller lengths, for old curve points, at last for the tessellation.
   // True when some face is to be done again.
-  bool demand_repairs(const SurfaceMesh& mesh, int round) {
-    if (round <= kNarrowRounds)
-      for (const Defect& d : find_narrow_places(mesh, lengths_)) lengths_.add_cap(d.place, d.length);
+  bool demand_repairs(const SurfaceMesh& mesh) {
+    if (++narrow_rounds_ <= kNarrowRounds)
+      for (const Defect& d : find_narrow_places(mesh, lengths_))
+        if (!crosses_in_tessellation(d.face)) lengths_.add_cap(d.place, d.length);
     std::vector<Box> changed = lengths_.apply_caps();
     if (changed.empty()) {  // crossings cost more to find: only when nothing else is to be done
       repair_crossings(find_crossing_defects(mesh, lengths_));
@@ -199,8 +200,7 @@ class SurfaceMesher {
   // Faces of solids that merely touch cannot be told apart by smaller triangles: they are left to recovery.
   void repair_crossings(std::vector<Defect> crossings) {
     std::erase_if(crossings, [&](const Defect& d) { return !share_solid(d.face, d.other); });
-    if (crossings.empty()) return;
-    if (input_crosses_.empty()) check_input();
+    if (!crossings.empty()) crosses_in_tessellation(crossings[0].face);  // refuses what is hopeless
     std::vector<char> crosses(face_count(), 0), crosses_itself(face_count(), 0);
     for (const Defect& d : crossings) crosses_itself[d.face] |= d.face == d.other;
     for (const Defect& d : crossings) crosses[d.face] |= crosses_itself[d.face] || !crosses_itself[d.other];
@@ -222,7 +222,7 @@ class SurfaceMesher {
   }
 
   void escalate(Index f) {
-    if (mode_[f] == FaceMode::as_given || input_crosses_[f]) return;
+    if (mode_[f] == FaceMode::as_given || crosses_in_tessellation(f)) return;
     mode_[f] = mode_[f] == FaceMode::remeshed ? FaceMode::refined : FaceMode::as_given;
     redo_[f] = 1;
     const auto [first, last] = edges_of_face(f);
@@ -239,7 +239,13 @@ class SurfaceMesher {
         if (keep_[p] != 2 && norm2(plc_.points[p] - d.place) < radius2) keep_[p] = 2, redo_[d.face] = 1;
   }
 
-  // Which faces cross in the tessellation.  Where its triangles have more crossings than there are triangles,
+  // Smaller triangles are of no use to such a face.
+  bool crosses_in_tessellation(Index face) {
+    if (input_crosses_.empty()) check_input();
+    return input_crosses_[face];
+  }
+
+  // Which faces cross in the tessellation.  Where there are many times more crossings than triangles,
   // a face lies over itself or another one, and no mesh can follow it.
   void check_input() {
     input_crosses_.assign(face_count(), 0);
@@ -354,6 +360,7 @@ class SurfaceMesher {
   std::vector<Index> crossed_;  // rounds in which its triangles crossed
   std::vector<FaceEdge> face_edges_;
   std::vector<std::vector<Index>> edge_points_;
+  int narrow_rounds_ = 0;
   std::vector<char> input_crosses_;  // in the tessellation; made when first needed
 };
 

@@ -149,6 +149,60 @@ TEST_CASE("cancelling stops the stage") {
   CHECK_THROWS_AS(mesh_surfaces(shape.plc, geometry, size, {}, context), Cancelled);
 }
 
+namespace {
+
+// A shaft with grooves of a triangular profile whose floor is a ring of the width `floor`.
+Shape grooved_shaft(int grooves, double floor, int n) {
+  Shape s;
+  const Vec3 z{0, 0, 1};
+  const double outer = 3.1, inner = 2.65, slope = (outer - inner) * std::tan(std::numbers::pi / 6);
+  std::vector<std::array<double, 2>> profile{{outer, 0}};  // radius, height
+  for (int k = 0; k < grooves; ++k) {
+    const double low = 0.3 + 0.7 * k;
+    profile.push_back({outer, low});
+    profile.push_back({inner, low + slope});
+    profile.push_back({inner, low + slope + floor});
+    profile.push_back({outer, low + 2 * slope + floor});
+  }
+  profile.push_back({outer, 0.7 * grooves + 0.3});
+  std::vector<std::vector<Vec3>> circles;
+  for (const auto& [r, height] : profile) {
+    circles.push_back(shapes::circle(r, height, n));
+    s.corner(circles.back()[0]);
+    s.edge({CurveKind::circle, {0, 0, height}, z, r, -1}, circles.back());
+  }
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+    const auto [r, low] = profile[i];
+    const auto [q, high] = profile[i + 1];
+    SurfaceRecord wall{SurfaceKind::cylinder, {}, z, r, 0, -1};
+    if (r != q) {
+      const double apex = low + r * (high - low) / (r - q);
+      wall = {SurfaceKind::cone,
+              {0, 0, apex},
+              r > q ? -z : z,
+              std::atan(std::abs((r - q) / (high - low))),
+              0,
+              -1};
+    }
+    const Index face = s.face(wall, 1);
+    for (int k = 0; k < n; ++k)
+      s.quad(face, circles[i][k], circles[i][k + 1], circles[i + 1][k + 1], circles[i + 1][k]);
+  }
+  const Index bottom = s.face(shapes::plane({}, -z), 1), top = s.face(shapes::plane(circles.back()[0], z), 1);
+  for (int k = 1; k + 1 < n; ++k) {
+    s.triangle(bottom, circles[0][0], circles[0][k + 1], circles[0][k]);
+    s.triangle(top, circles.back()[0], circles.back()[k], circles.back()[k + 1]);
+  }
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("narrow rings get smaller triangles, also where old curve points had to be kept before") {
+  const Run run(grooved_shaft(3, 0.06, 24), Run::size_options(2));
+  CHECK(measure(run).min_angle > 10);
+}
+
 TEST_CASE("a surface that crosses itself over and over is refused, with a face's name") {
   Shape s;
   constexpr int n = 60;
