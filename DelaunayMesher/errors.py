@@ -41,7 +41,7 @@ class MeshError(Exception):
         text = self.message
         if names:
             text += " [%s]" % ", ".join(names)
-        if self.place is not None:
+        if self.place is not None and " near (" not in text:
             text += " near (%.6g, %.6g, %.6g)" % self.place
         return "%s: %s (%s)" % (self.stage, text, self.code)
 

@@ -19,6 +19,8 @@ def test_one_line_says_it_all():
     error = MeshError("boundary", "self_intersection", "two faces cross", (10.2, 4, 0), "Face12", "Face40")
     assert str(error) == "boundary: two faces cross [Face12, Face40] near (10.2, 4, 0) (self_intersection)"
     assert str(MeshError("plc", "empty", "nothing")) == "plc: nothing (empty)"
+    named = MeshError("plc", "open", "a gap beside Face1 near (1, 2, 3)", (1, 2, 3), "Face1")
+    assert str(named) == "plc: a gap beside Face1 near (1, 2, 3) (open)"
 
 
 def test_statuses():

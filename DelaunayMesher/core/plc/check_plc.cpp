@@ -238,8 +238,10 @@ void check_closed(const Plc& plc) {
            place, face_entity(side.face), other);
     }
     fail("orientation",
-         solid_name(side.solid) + ": " + face_name(side.face) + " and " + face_name(other.index) +
-             " face opposite ways near " + at(place) + ".",
+         solid_name(side.solid) + ": " + face_name(side.face) +
+             (other == face_entity(side.face) ? " turns over"
+                                              : " and " + face_name(other.index) + " face opposite ways") +
+             " near " + at(place) + ": repair it in the CAD program.",
          place, face_entity(side.face), other);
   }
 }
