@@ -144,3 +144,25 @@ def test_cones_are_good_to_their_tip(half_angle):
     mesh = checked(Part.makeCone(20 * math.tan(math.radians(half_angle)), 0, 20), 4.0, volume_error=0.06)
     assert mesh.quality["min_dihedral"] > 20
     assert not mesh.warnings
+
+
+def rod(flat, length):
+    """Half circles of radius 0.1 at its sides, joined by flats of this width."""
+    arcs = [
+        Part.Arc(V(x * flat / 2, -x * 0.1, 0), V(x * (flat / 2 + 0.1), 0, 0), V(x * flat / 2, x * 0.1, 0))
+        for x in (1, -1)
+    ]
+    lines = [Part.makeLine(V(x * flat / 2, x * 0.1, 0), V(-x * flat / 2, x * 0.1, 0)) for x in (1, -1)]
+    outline = Part.Wire([arcs[0].toShape(), lines[0], arcs[1].toShape(), lines[1]])
+    return Part.Face(outline).extrude(V(0, 0, length))
+
+
+@pytest.mark.parametrize("flat, wide, angle", [(1e-3, 0.02, 32), (1e-3, 0.1, 32), (1e-3, 0.1, 45)])
+def test_faces_with_a_strip_and_a_wide_part(flat, wide, angle):
+    """As at the bend of a wire whose two halves are not quite as wide."""
+    upright, bent = rod(flat, 3), rod(wide, 3)
+    upright.translate(V(0, 0, -3))
+    bent.rotate(V(0, 0, 0), V(0, 1, 0), angle)
+    mesh = DelaunayMesher.mesh(upright.fuse(bent), max_size=0.43)
+    assert mesh.quality["min_dihedral"] > 20
+    assert len(mesh.tets) < 9000

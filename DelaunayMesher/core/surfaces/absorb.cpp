@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <unordered_set>
 
 #include "sizing/box_tree.h"
 #include "surfaces/crossings.h"
@@ -16,7 +17,7 @@ constexpr double kWidest = 2.5;         // extent of the points that become one,
 constexpr double kTurned = 0.3;         // cosine between a triangle's normals before and after
 constexpr double kFlat = 0.001;         // height of a triangle that has become flat, over the tolerance
 constexpr int kMostFlips = 8;           // per triangle that would turn over
-constexpr double kAcute = 0.7;          // angle between faces that may come to meet, radians
+constexpr double kAcute = 0.5;          // angle between faces that may come to meet, radians
 constexpr double kNarrowed = 0.7;       // that of faces that met before, over what it was
 
 // Points that become one, with the box round them.
@@ -151,31 +152,57 @@ class Absorber {
         concerned[face(t)] = 1;
       }
     if (stack.empty()) return;
-    std::map<std::pair<Index, Segment>, std::size_t> half;  // face, directed side -> triangle
+    collect_sides();
+    half_.clear();
     for (std::size_t t = 0; t < triangles_.size(); ++t)
-      for (int i = 0; concerned[face(t)] && i < 3; ++i) half[{face(t), side(t, i)}] = t;
+      for (int i = 0; concerned[face(t)] && i < 3; ++i) half_[{face(t), side(t, i)}] = t;
+    std::vector<std::size_t> stuck;  // until something beside them is flipped
     for (std::size_t steps = kMostFlips * stack.size(); !stack.empty() && steps > 0; --steps) {
       const std::size_t t = stack.back();
       stack.pop_back();
-      for (int i = 0; i < 3 && is_turned(triangles_[t], before_[t]); ++i) {
-        const auto [a, b] = side(t, i);
-        const auto beside = half.find({face(t), {b, a}});
-        if (beside == half.end() || is_segment(a, b)) continue;
-        const std::size_t s = beside->second;
-        const Index c = apex(a, b, triangles_[t]), d = apex(a, b, triangles_[s]);
-        const Triangle one{c, a, d}, other{d, b, c};
-        const Vec3 n = before_[s] + before_[t];
-        if (c == d || half.contains({face(t), {c, d}}) || half.contains({face(t), {d, c}})) continue;
-        if (is_turned(one, n) || is_turned(other, n)) continue;
-        half.erase({face(t), {a, b}});
-        half.erase(beside);
-        triangles_[t] = one;
-        triangles_[s] = other;
-        before_[t] = before_[s] = n;
-        for (const std::size_t u : {t, s})
-          for (int j = 0; j < 3; ++j) half[{face(t), side(u, j)}] = u;
+      if (!is_turned(triangles_[t], before_[t])) continue;
+      if (flip_away(t)) {
+        stack.insert(stack.end(), stuck.begin(), stuck.end());
+        stuck.clear();
+      } else {
+        stuck.push_back(t);
       }
     }
+  }
+
+  // Flips a side of the triangle so that neither new one is turned over; false if there is none.
+  bool flip_away(std::size_t t) {
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = side(t, i);
+      const auto beside = half_.find({face(t), {b, a}});
+      if (beside == half_.end() || is_segment(a, b)) continue;
+      const std::size_t s = beside->second;
+      const Index c = apex(a, b, triangles_[t]), d = apex(a, b, triangles_[s]);
+      const Triangle one{c, a, d}, other{d, b, c};
+      const Vec3 n = before_[s] + before_[t];
+      if (c == d || sides_.contains(undirected(c, d))) continue;  // of another face, maybe
+      if (is_turned(one, n) || is_turned(other, n)) continue;
+      half_.erase({face(t), {a, b}});
+      half_.erase(beside);
+      sides_.erase(undirected(a, b));
+      sides_.insert(undirected(c, d));
+      triangles_[t] = one;
+      triangles_[s] = other;
+      before_[t] = before_[s] = n;
+      for (const std::size_t u : {t, s})
+        for (int j = 0; j < 3; ++j) half_[{face(t), side(u, j)}] = u;
+      return true;
+    }
+    return false;
+  }
+
+  void collect_sides() {
+    sides_.clear();
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (int i = 0; i < 3; ++i) sides_.insert(undirected(side(t, i)[0], side(t, i)[1]));
+  }
+  static std::uint64_t undirected(Index a, Index b) {
+    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
   }
 
   Segment side(std::size_t t, int i) const { return {triangles_[t][i], triangles_[t][(i + 1) % 3]}; }
@@ -373,6 +400,8 @@ class Absorber {
   std::vector<Index> source_;                      // of triangles_, in plc_
   std::vector<Vec3> before_;                       // of triangles_: twice the area vector that they had
   std::vector<std::pair<Index, Index>> segments_;  // ends that stay, in order
+  std::map<std::pair<Index, Segment>, std::size_t> half_;  // face, directed side -> triangle
+  std::unordered_set<std::uint64_t> sides_;  // of triangles_, while some are turned back, as half_
 };
 
 }  // namespace

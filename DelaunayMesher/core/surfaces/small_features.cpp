@@ -11,12 +11,14 @@ namespace dm {
 namespace {
 
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
+constexpr double kCorner = 2;    // ... from where two curves meet: 30 degrees
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 constexpr int kBisections = 20;
+constexpr int kMostRounds = 3;  // in which a face is searched
 
 class Finder {
  public:
@@ -40,7 +42,9 @@ class Finder {
     });
     const std::vector<Index> faces = faces_with_narrow_places();
     if (!faces.empty()) collect_triangles(faces);
-    for (const Index f : faces) search_face(f);
+    search(faces);
+    for (const Index f : faces)
+      if (load(f)) collect_features(f);
     drop_removed_triangles();
     std::stable_sort(found_.begin(), found_.end(),
                      [&](const SmallFeature& a, const SmallFeature& b) { return width(a) < width(b); });
@@ -128,9 +132,12 @@ class Finder {
     place = geometry_.project_to_edge(edge, at(a) + t * along);
     const double w = distance(place, at(p));
     if (!(w < limit) || std::min(distance(at(a), place), distance(at(b), place)) < 0.1 * w) return false;
-    // A vertex within reach is faced rather than a place beside it.
-    for (const Index end : {a, b})
-      if (distance(at(end), at(p)) < (edges_of_[end].size() > 1 ? limit : kFacing * w)) return false;
+    // A vertex within reach is faced rather than a place beside it, and the corner of a face is no strip.
+    for (const Index end : {a, b}) {
+      const double d = distance(at(end), at(p));
+      if (d < (edges_of_[end].size() > 1 ? limit : kFacing * w)) return false;
+      if (d < kCorner * w && share_edge(end, p)) return false;
+    }
     return true;
   }
 
@@ -209,17 +216,36 @@ class Finder {
 
   // ---- one face
 
-  void search_face(Index face) {
+  // A face is searched again where another one has divided its outline: a point there faces others, too.
+  // Facets are not, as absorbing more of them bends them more.
+  void search(const std::vector<Index>& faces) {
+    std::vector<Index> again = faces;
+    for (int round = 0; round < kMostRounds && !again.empty(); ++round) {
+      divided_by_other_.clear();
+      for (const Index f : again)
+        if (load(f)) search_face(f);
+      again.assign(divided_by_other_.begin(), divided_by_other_.end());
+    }
+  }
+
+  // Makes a face the one at hand; false if it is folded onto itself.
+  bool load(Index face) {
+    divided_by_other_.erase(face);
     half_.clear();
+    sharp_.clear();
+    for (const Tip& tip : tips_)
+      if (tip.face == face) sharp_.insert(tip.point);
     for (const Index t : by_face_[face])
       for (int i = 0; i < 3; ++i)
-        if (!half_.emplace(side(t, i), t).second) return;  // folded onto itself
+        if (!half_.emplace(side(t, i), t).second) return false;
+    return true;
+  }
+
+  void search_face(Index face) {
     steps_ = kMostSteps * by_face_[face].size() + 1000;
-    sharp_.clear();
     for (const Tip& tip : tips_)
       if (tip.face == face) {
         cut_tip(tip);
-        sharp_.insert(tip.point);
         drop_points(tip);
       }
     std::vector<Segment> open;
@@ -241,7 +267,6 @@ class Finder {
       open.push_back({ends[0], v});
       open.push_back({v, ends[1]});
     }
-    collect_features(face);
   }
 
   Segment side(Index t, int i) const { return {plc_.triangles[t][i], plc_.triangles[t][(i + 1) % 3]}; }
@@ -403,6 +428,7 @@ class Finder {
       for (const Index q : second)
         if (is_tracked(q, n)) round_[q].push_back(n);
       if (searched_[f]) by_face_[f].push_back(n);
+      if (searched_[f] && f != face && !geometry_.is_facets(f)) divided_by_other_.insert(f);
       if (f == face)
         for (const Index u : {t, n})
           for (int i = 0; i < 3; ++i) half_[side(u, i)] = u;
@@ -475,6 +501,7 @@ class Finder {
   std::vector<Index> removed_;                // triangles
   std::vector<std::vector<Index>> by_face_;   // of faces that are searched: their triangles
   std::vector<char> searched_;
+  std::set<Index> divided_by_other_;  // faces with new points since they were searched
   std::vector<Tip> tips_;
   std::set<Index> sharp_;          // of the face at hand: points of its tips
   std::map<Segment, Index> half_;  // of the face at hand: directed side -> triangle
