@@ -142,6 +142,9 @@ class EditMesh {
   // Extreme angles of the tetrahedra that the trial has changed, before and now.
   const AngleCosines& trial_before() const { return trial_before_; }
   AngleCosines trial_now() const;
+  // The sum of their shortfall().
+  double trial_shortfall_before() const { return trial_shortfall_; }
+  double trial_shortfall() const;
   Index trial_worst() const;  // of them, -1 if none is left
 
  private:
@@ -182,6 +185,7 @@ class EditMesh {
   std::vector<Index> noted_, touched_;  // per tetrahedron the last trial that changed it; those of this one
   Index trial_ = 0;
   AngleCosines trial_before_;
+  double trial_shortfall_ = 0;
   std::vector<Index> changed_;  // per point
   Index clock_ = 0;             // 0: not started
   bool stars_listed_ = false, boundary_listed_ = false;

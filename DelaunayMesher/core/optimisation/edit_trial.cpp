@@ -9,6 +9,7 @@ void EditMesh::begin_trial() {
   changes_.clear();
   touched_.clear();
   trial_before_ = {};
+  trial_shortfall_ = 0;
   ++trial_;
 }
 
@@ -27,7 +28,9 @@ void EditMesh::note_tet(Index t) {
   if (noted_[t] == trial_) return;
   noted_[t] = trial_;
   touched_.push_back(t);
-  if (!removed(t)) trial_before_.include(cosines(mesh_.tets[t]));
+  if (removed(t)) return;
+  trial_before_.include(cosines(mesh_.tets[t]));
+  trial_shortfall_ += shortfall(bad_[t]);
 }
 
 void EditMesh::move_point(Index v, const Vec3& p, std::span<const Index> tets, std::span<const float> bad) {
@@ -54,6 +57,13 @@ AngleCosines EditMesh::trial_now() const {
   for (const Index t : touched_)
     if (t < slot_count() && !removed(t)) all.include(cosines(mesh_.tets[t]));
   return all;
+}
+
+double EditMesh::trial_shortfall() const {
+  double sum = 0;
+  for (const Index t : touched_)
+    if (t < slot_count() && !removed(t)) sum += shortfall(bad_[t]);
+  return sum;
 }
 
 Index EditMesh::trial_worst() const {

@@ -6,9 +6,9 @@ namespace dm {
 namespace {
 
 constexpr std::size_t kLargest = 30;  // tetrahedra of a cavity: their cone has fewer than kMaxReplace
-constexpr double kFlat = 0.6664;      // badness at 1 and 178 degrees
-constexpr int kSteps = 6;             // along the gradient, before the cavity is grown again
-constexpr double kNormalTurn = 0.9;   // cosine of the largest angle between old and new normals
+constexpr double kSharpest = 0.99985, kBluntest = -0.9994;  // cosines of 1 and 178 degrees
+constexpr int kSteps = 6;            // along the gradient, before the cavity is grown again
+constexpr double kNormalTurn = 0.9;  // cosine of the largest angle between old and new normals
 
 bool contains(const Tet& t, Index v) { return t[0] == v || t[1] == v || t[2] == v || t[3] == v; }
 bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
@@ -115,7 +115,8 @@ void Inserter::settle() {
 bool Inserter::is_valid() const {
   return std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
     const auto [a, b, c] = f.corners;
-    return badness(angle_cosines(mesh_.point(a), mesh_.point(b), mesh_.point(c), place_)) < kFlat;
+    const AngleCosines angles = angle_cosines(mesh_.point(a), mesh_.point(b), mesh_.point(c), place_);
+    return angles.sharp < kSharpest && angles.blunt > kBluntest;
   });
 }
 

@@ -19,7 +19,7 @@ constexpr double kMeanAngle = 51;    // degrees
 constexpr double kSharpFlip = 35;    // degrees: elements below it are tried in the first round of cheap flips
 constexpr double kMeanFlip = 43;     // in the others
 constexpr int kWorstRounds = 8;      // over the elements below the target
-constexpr double kRounding = 1e-3;   // of a badness in single precision
+constexpr double kSingle = 1e-3;     // rounding of a badness in single precision
 constexpr std::size_t kPiece = 256;  // elements that one thread takes at a time
 
 class Optimiser {
@@ -55,7 +55,7 @@ class Optimiser {
     AngleCosines all;
     for (Index t = 0; t < mesh_.slot_count(); ++t) {
       if (mesh_.removed(t)) continue;
-      const double reach = mesh_.bad(t) + kRounding;
+      const double reach = mesh_.bad(t) + kSingle;
       if (reach > all.sharp - 1.0 / 3 || reach > kBluntWeight * (1.0 / 3 - all.blunt))
         all.include(mesh_.cosines(mesh_.tet(t)));
     }

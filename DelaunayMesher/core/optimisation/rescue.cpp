@@ -4,6 +4,7 @@ namespace dm {
 namespace {
 
 constexpr double kGain = 1e-2;  // of the worst badness
+constexpr double kLeft = 0.9;   // of the shortfall, where the worst stays
 constexpr int kEdges = 2;       // that are contracted
 constexpr int kSteps = 3;       // of a follow-up
 constexpr int kPasses = 3;      // of smoothing and flips
@@ -60,7 +61,7 @@ void Rescuer::settle(Index v) {
     for (const Index t : tets_)
       if (!mesh_.removed(t) && mesh_.bad(t) >= kBad && !flipper_.improve(t))
         flipper_.improve_boundary(t, geometry_);
-    const double now = badness(mesh_.trial_now()), missing = now - (badness(mesh_.trial_before()) - kGain);
+    const double now = badness(mesh_.trial_now()), missing = now - badness(mesh_.trial_before());
     if (effort_ < kMostEffort && missing > kHope * (kPasses - 1 - pass) * (worst - now)) return;
     worst = now;
   }
@@ -68,7 +69,9 @@ void Rescuer::settle(Index v) {
 
 bool Rescuer::is_better() const {
   const AngleCosines before = mesh_.trial_before(), now = mesh_.trial_now();
-  return badness(now) < badness(before) - kGain && keeps_angles(before, now);
+  const double fall = badness(before) - badness(now);
+  if (fall < -kRounding || !keeps_angles(before, now)) return false;
+  return fall > kGain || mesh_.trial_shortfall() < kLeft * mesh_.trial_shortfall_before();
 }
 
 // Points on the longest boundary edges of what is worst now: a strip or gap narrower than the elements beside

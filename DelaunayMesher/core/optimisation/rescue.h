@@ -4,7 +4,8 @@
 // Changes: a point is inserted inside, on a boundary edge or on a boundary triangle (insertion.h), or a short
 // edge is contracted (collapse.h).  Klingner and Shewchuk (2007): most insertions pay only after the
 // neighbourhood has settled.
-// Guard: the worst badness falls and keeps_angles() holds over all tetrahedra that were changed.
+// Guard, over all tetrahedra that were changed: keeps_angles() holds, and the worst badness falls; or it
+// stays, as beside an angle that the CAD gives, and what they are short of 30 degrees becomes less.
 // Where one point is not enough, up to three more follow on the longest boundary edges of what is worst then.
 // Order: three efforts, what helps most elements for its time first, each with a bounded number of tries. A
 // trial is given up when it does not come nearer fast enough; one that failed is not made again, for whatever

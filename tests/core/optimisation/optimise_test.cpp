@@ -85,8 +85,7 @@ TEST_CASE("optimising twice changes little and spoils nothing") {
   const auto once = sample::angles(s.mesh);
   run(s, context);
   const auto twice = sample::angles(s.mesh);
-  CHECK(twice.min >= std::min(once.min, 30.0) - 1e-2);
-  CHECK(twice.max <= std::max(once.max, 136.0) + 1e-2);
+  CHECK(sample::keeps(once, twice, 1e-2));
 }
 
 TEST_CASE("two solids keep the faces between them") {
@@ -143,6 +142,25 @@ TEST_CASE("slabs far thinner than their elements get the several points that the
     good += report.min_after > 20 && report.max_after < 142;
   }
   CHECK(good >= 13);
+}
+
+TEST_CASE("a rescue beside an element that is as bad and stays counts") {
+  std::size_t tets = 0, sharp = 0;
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    auto s = sample::box(8, 0.2, seed);
+    for (Vec3& p : s.mesh.points) p.z *= 0.4;
+    s.records.faces[5].origin.z = 3.2;
+    for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.4;
+    s.plc = sample::boundary_plc(s.mesh, 6, 12);
+    Context context;
+    run(s, context);
+    tets += s.mesh.tets.size();
+    for (const Tet& t : s.mesh.tets) {
+      const auto& p = s.mesh.points;
+      sharp += dihedral_range(p[t[0]], p[t[1]], p[t[2]], p[t[3]]).min < 30;
+    }
+  }
+  CHECK(sharp < tets / 500);  // it was one of 64
 }
 
 TEST_CASE("the number of threads changes no byte") {

@@ -52,6 +52,13 @@ void add_boundary(VolumeMesh& mesh, FaceOf face_of) {
     }
 }
 
+// Neither angle gets worse but inside what the guard leaves free (quality.h).
+inline bool keeps(const AngleRange& before, const AngleRange& after, double rounding) {
+  const bool poor = before.min < 26.5 || before.max > 140;
+  return after.min >= std::min(before.min, poor ? 26.5 : 30.0) - rounding &&
+         after.max <= std::max(before.max, poor ? 140.0 : 136.0) + rounding;
+}
+
 inline double volume(const VolumeMesh& mesh) {
   double v = 0;
   for (const Tet& t : mesh.tets) {
