@@ -1,10 +1,15 @@
 #include "surfaces/defects.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "surfaces/crossings.h"
+#include "surfaces/edge_paths.h"
 
 namespace dm {
 namespace {
@@ -13,13 +18,16 @@ constexpr double kSmallAngle = 0.94;        // cosine of 20 degrees
 constexpr double kShortSegment = 0.5;       // over the wanted length
 constexpr double kStripLength = 1.5;        // wanted length over the strip's width
 constexpr double kFloor = 1.0 / 8;          // of the length the size field wants
+constexpr double kTip = 12;                 // shortest length over the width: too narrow there for any gain
 constexpr double kWedge = 3;                // distance from the meeting point over the width: 20 degrees
+constexpr double kSharp = 0.5;              // solid angle: the end of a wedge of 20 degrees has 0.35 to 0.7
 constexpr std::size_t kMostCrossings = 16;  // for each triangle
 constexpr double kNoGain = 0.85;  // a cap no shorter than this, over the present length, is not worth it
 
 class NarrowPlaces {
  public:
-  NarrowPlaces(const SurfaceMesh& mesh, const LengthField& lengths) : mesh_(mesh), lengths_(lengths) {}
+  NarrowPlaces(const SurfaceMesh& mesh, const Plc& plc, const LengthField& lengths)
+      : mesh_(mesh), plc_(plc), lengths_(lengths) {}
 
   std::vector<Defect> run() {
     std::vector<Defect> found;
@@ -36,9 +44,10 @@ class NarrowPlaces {
       if (is_segment(a, b) && is_segment(a, c)) continue;  // the angle is the input's
       const Vec3 &pa = mesh_.points[a], &pb = mesh_.points[b], &pc = mesh_.points[c];
       const double width = height(pa, pb, pc);
-      if (in_wedge(v, width)) continue;
       const Vec3 place = (1.0 / 3) * (pa + pb + pc);
-      const double length = std::max(kStripLength * width, kFloor * lengths_.without_caps(place));
+      const double floor = kFloor * lengths_.without_caps(place);
+      if (in_wedge(v, width, kTip * width < floor)) continue;
+      const double length = std::max(kStripLength * width, floor);
       if (length < kNoGain * lengths_.at(place)) found.push_back({place, length, mesh_.triangle_face[t], -1});
     }
     return found;
@@ -66,30 +75,58 @@ class NarrowPlaces {
     return found;
   }
 
-  // Do two curves of the triangle meet, farther away than belongs to its width?  Then the strip is a wedge.
-  bool in_wedge(const Triangle& v, double width) {
-    if (edge_ends_.empty()) find_edge_ends();
-    for (int i = 0; i < 3; ++i) {
-      const Entity &a = mesh_.point_entity[v[i]], &b = mesh_.point_entity[v[(i + 1) % 3]];
-      if (a.dimension != 1 || b.dimension != 1 || a.index == b.index) continue;
-      for (const Index p : edge_ends_[a.index])
-        for (const Index q : edge_ends_[b.index])
-          if (p == q && distance(mesh_.points[p], mesh_.points[v[i]]) > kWedge * width) return true;
+  // Do two curves of the triangle meet at the tip of a wedge, farther away than belongs to the triangle's
+  // width? Where the solid itself is as sharp, smaller triangles make no better tetrahedra.  Where only the
+  // face is (a fillet that runs out, the crest of a thread), they do, but for those at the tip.
+  bool in_wedge(const Triangle& v, double width, bool at_tip) {
+    if (!paths_) {
+      paths_.emplace(mesh_);
+      find_sharp_ends();
     }
+    for (int i = 0; i < 3; ++i)
+      for (const int j : {(i + 1) % 3, (i + 2) % 3}) {
+        const Entity &a = mesh_.point_entity[v[i]], &b = mesh_.point_entity[v[j]];
+        if (a.dimension != 1 || b.dimension != 1 || a.index == b.index) continue;
+        const auto& ends = paths_->ends()[b.index];
+        for (const Index p : paths_->ends()[a.index])
+          if (std::find(ends.begin(), ends.end(), p) != ends.end() &&
+              distance(mesh_.points[p], mesh_.points[v[i]]) > kWedge * width &&
+              (at_tip || (sharp_[p] && !paths_->run_in_parallel(a.index, v[i], b.index, p, width))))
+            return true;
+      }
     return false;
   }
 
-  // Where an edge ends: at points that one of its segments has, CAD vertices or not (absorbed faces).
-  void find_edge_ends() {
-    std::vector<std::pair<Index, Index>> uses;
-    for (std::size_t s = 0; s < mesh_.segments.size(); ++s)
-      for (const Index p : mesh_.segments[s]) uses.emplace_back(mesh_.segment_edge[s], p);
-    std::sort(uses.begin(), uses.end());
-    edge_ends_.resize(uses.empty() ? 0 : uses.back().first + 1);
-    for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
-      while (j < uses.size() && uses[j] == uses[i]) ++j;
-      if (j == i + 1) edge_ends_[uses[i].first].push_back(uses[i].second);
+  // Ends of edges at which some solid has a small solid angle: by the areas of the triangles between the
+  // sides of the fan and any one direction, on the sphere round the point, a multiple of the sphere left
+  // aside.
+  void find_sharp_ends() {
+    const Vec3 direction{0.36, -0.48, 0.8};
+    std::map<std::array<Index, 2>, double> angles;  // by point and solid
+    for (const auto& ends : paths_->ends())
+      for (const Index p : ends) angles[{p, 0}] = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Index p = mesh_.triangles[t][i];
+        if (mesh_.point_entity[p].dimension == 2 || !angles.contains({p, 0})) continue;
+        const auto towards = [&](int k) {
+          return normalized(mesh_.points[mesh_.triangles[t][(i + k) % 3]] - mesh_.points[p]);
+        };
+        const double area = area_on_sphere(towards(2), towards(1), direction);
+        const auto [behind, front] = plc_.face_solids[mesh_.triangle_face[t]];
+        angles[{p, behind}] += area;
+        angles[{p, front}] -= area;
+      }
+    sharp_.assign(mesh_.points.size(), 0);
+    for (const auto& [key, sum] : angles) {
+      const double whole = 4 * std::numbers::pi, angle = sum - whole * std::floor(sum / whole);
+      if (key[1] > 0 && std::min(angle, whole - angle) < kSharp) sharp_[key[0]] = 1;
     }
+  }
+
+  // Van Oosterom and Strackee 1983; a, b, c of length 1.
+  static double area_on_sphere(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
   }
 
   bool is_segment(Index a, Index b) {
@@ -101,9 +138,11 @@ class NarrowPlaces {
   }
 
   const SurfaceMesh& mesh_;
+  const Plc& plc_;
   const LengthField& lengths_;
-  std::vector<std::pair<Index, Index>> segments_;  // sorted; made when first needed, as is
-  std::vector<std::vector<Index>> edge_ends_;      // points by edge
+  std::vector<std::pair<Index, Index>> segments_;  // sorted; made when first needed, as are
+  std::optional<EdgePaths> paths_;
+  std::vector<char> sharp_;  // by point
 };
 
 // Points of a face may fall on the same place where it is folded sharply: the nearest place of the other
@@ -154,8 +193,8 @@ std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthF
 
 bool has_repeated_points(const SurfaceMesh& mesh) { return !triangles_at_repeated_points(mesh).empty(); }
 
-std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const LengthField& lengths) {
-  return NarrowPlaces(mesh, lengths).run();
+std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const Plc& plc, const LengthField& lengths) {
+  return NarrowPlaces(mesh, plc, lengths).run();
 }
 
 }  // namespace dm

@@ -25,8 +25,8 @@ std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthF
 bool has_repeated_points(const SurfaceMesh& mesh);
 
 // Triangles with an angle under 20 degrees between curves closer together than the wanted length, or beside
-// a short CAD edge.  Not where the curves themselves meet at such an angle, nor below an eighth of the length
-// that the size field wants.
-std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const LengthField& lengths);
+// a short CAD edge.  Not where the curves meet at such an angle in the tip of a wedge or needle of a solid
+// (its solid angle there is small), nor below an eighth of the length that the size field wants.
+std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const Plc& plc, const LengthField& lengths);
 
 }  // namespace dm

@@ -183,7 +183,7 @@ class SurfaceMesher {
   // True when some face is to be done again.
   bool demand_repairs(const SurfaceMesh& mesh) {
     if (++narrow_rounds_ <= kNarrowRounds)
-      for (const Defect& d : find_narrow_places(mesh, lengths_))
+      for (const Defect& d : find_narrow_places(mesh, plc_, lengths_))
         if (!crosses_in_tessellation(d.face)) lengths_.add_cap(d.place, d.length);
     std::vector<Box> changed = lengths_.apply_caps();
     if (changed.empty()) {  // crossings cost more to find: only when nothing else is to be done

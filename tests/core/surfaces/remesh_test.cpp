@@ -203,6 +203,69 @@ TEST_CASE("narrow rings get smaller triangles, also where old curve points had t
   CHECK(measure(run).min_angle > 10);
 }
 
+namespace {
+
+// A block whose top has a wedge of a face: from a point of one edge to `width` on the opposite one.
+Shape block_with_wedge_on_top(double length, double depth, double height, double width) {
+  Shape s;
+  const auto at = [&](double x, double y, double z) { return Vec3{x, y, z}; };
+  const double y = depth / 2;
+  const Vec3 a = at(0, 0, 0), b = at(length, 0, 0), c = at(length, depth, 0), d = at(0, depth, 0);
+  const Vec3 e = at(0, 0, height), f = at(length, 0, height), g = at(length, depth, height),
+             h = at(0, depth, height), tip = at(0, y, height), p = at(length, y, height),
+             q = at(length, y + width, height);
+  const auto polygon = [&](const std::vector<Vec3>& corners) {
+    const Vec3 normal = area_vector(corners[0], corners[1], corners[2]);
+    const Index face = s.face(shapes::plane(corners[0], normal), 1);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+      s.triangle(face, corners[0], corners[i], corners[i + 1]);
+  };
+  polygon({tip, p, q});  // face 0
+  polygon({tip, e, f, p});
+  polygon({tip, q, g, h});
+  polygon({d, c, b, a});
+  polygon({a, b, f, e});
+  polygon({c, d, h, g});
+  polygon({b, c, g, q, p, f});
+  polygon({a, e, tip, h, d});
+  for (const Vec3& corner : {a, b, c, d, e, f, g, h, tip, p, q}) s.corner(corner);
+  for (const auto& [v, w] : {std::pair{a, b},
+                             {b, c},
+                             {c, d},
+                             {d, a},
+                             {a, e},
+                             {b, f},
+                             {c, g},
+                             {d, h},
+                             {e, f},
+                             {f, p},
+                             {p, q},
+                             {q, g},
+                             {g, h},
+                             {h, tip},
+                             {tip, e},
+                             {tip, p},
+                             {tip, q}})
+    s.line(v, w);
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("where only a face is a wedge, its triangles get small, and all but those at the tip good") {
+  const Run run(block_with_wedge_on_top(30, 20, 10, 1.5), Run::size_options(2));
+  int thin = 0, near_the_tip = 0;
+  for (std::size_t t = 0; t < run.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = run.mesh.triangles[t];
+    const auto& points = run.mesh.points;
+    if (min_angle(points[a], points[b], points[c]) > 15) continue;
+    ++thin;
+    near_the_tip += std::min({points[a].x, points[b].x, points[c].x}) < 3;
+  }
+  CHECK(thin == near_the_tip);
+  CHECK(run.mesh.triangles.size() < 4000);
+}
+
 TEST_CASE("a surface that crosses itself over and over is refused, with a face's name") {
   Shape s;
   constexpr int n = 60;
