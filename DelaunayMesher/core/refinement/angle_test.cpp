@@ -26,7 +26,7 @@ double tet_sharpness(const LabelledTriangulation& mesh, Index tet) {
 }
 
 bool is_flat(const Triangulation& tets, Index t) {
-  constexpr double kFlatVolume = 1e-9;
+  constexpr double kFlatVolume = 1e-7;
   const Tet& v = tets.corners(t);
   double longest2 = 0;
   for (int i = 0; i < 4; ++i)

@@ -162,6 +162,15 @@ TEST_CASE("sharpness agrees with the dihedral angles and leaves out exempt ones"
   }
 }
 
+TEST_CASE("a tetrahedron between points of a plane face is flat, as near to it as CAD puts them") {
+  for (const double height : {1e-10, 1e-8, 1e-5, 0.1}) {
+    const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, height}};
+    const Triangulation tets(points);
+    for (Index t = 0; t < tets.slot_count(); ++t)
+      if (!tets.is_free(t) && !tets.is_ghost(t)) CHECK(is_flat(tets, t) == (height < 1e-6));
+  }
+}
+
 TEST_CASE("constrained cavities are balls that stop at the boundary") {
   Refined r(shapes::two_boxes(), 0.3);
   ConstrainedSearch search(r.mesh.tets);
