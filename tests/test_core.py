@@ -116,6 +116,8 @@ def test_too_many_elements():
     with pytest.raises(MeshError) as caught:
         DelaunayMesher.mesh(box(), max_size=0.01, max_elements=1000)
     assert caught.value.code == "too_many_elements"
+    with pytest.raises(MeshError, match=r"about 1e\+\d+ tetrahedra"):  # more than 64 bits can count
+        DelaunayMesher.mesh(box(), max_size=1e-8)
 
 
 def test_cancel_and_progress():

@@ -1,6 +1,7 @@
 #include "mesher.h"
 
 #include <chrono>
+#include <cstdio>
 
 #include "base/memory.h"
 #include "boundary/recovery.h"
@@ -33,10 +34,11 @@ class StageClock {
 void refuse_if_too_many(const SizeField& size, std::int64_t limit) {
   const double predicted = size.predicted_tetrahedra();
   if (limit <= 0 || predicted <= static_cast<double>(limit)) return;
+  char count[32];
+  std::snprintf(count, sizeof count, predicted < 1e9 ? "%.0f" : "%.0e", predicted);
   throw Failure("sizing", "too_many_elements",
-                "the sizes ask for about " + std::to_string(static_cast<std::int64_t>(predicted)) +
-                    " tetrahedra, more than the limit of " + std::to_string(limit) +
-                    "; use a larger size or raise --max-elements");
+                std::string("the sizes ask for about ") + count + " tetrahedra, more than the limit of " +
+                    std::to_string(limit) + "; use a larger size or raise --max-elements");
 }
 
 void record(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {

@@ -32,10 +32,16 @@ def read_shape(path, warnings=None):
     try:
         shape.read(path)
     except Exception as error:  # FreeCAD raises Part.OCCError, RuntimeError, ... by format
-        raise InputError("plc", "unreadable", "FreeCAD cannot read %s: %s" % (path, error)) from error
+        raise InputError("plc", "unreadable", "FreeCAD cannot read %s: %s" % (path, words(error))) from error
     if shape.isNull():
         raise InputError("plc", "unreadable", "FreeCAD finds nothing in %s" % path)
     return with_solids(shape, [] if warnings is None else warnings)
+
+
+def words(error):
+    """What an exception says; some of FreeCAD's bring a dict instead of a text."""
+    told = error.args[0] if error.args else ""
+    return told.get("swhat") or told.get("sErrMsg") if isinstance(told, dict) else str(error)
 
 
 def shape_of_document(path):
