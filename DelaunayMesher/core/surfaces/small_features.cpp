@@ -135,8 +135,9 @@ class Finder {
     // A vertex within reach is faced rather than a place beside it, and the corner of a face is no strip.
     for (const Index end : {a, b}) {
       const double d = distance(at(end), at(p));
-      if (d < (edges_of_[end].size() > 1 ? limit : kFacing * w)) return false;
-      if (d < kCorner * w && share_edge(end, p)) return false;
+      const bool joined = share_edge(end, p);
+      if (d < (edges_of_[end].size() > 1 && !joined ? limit : kFacing * w)) return false;
+      if (d < kCorner * w && joined) return false;
     }
     return true;
   }

@@ -276,3 +276,13 @@ TEST_CASE("both tips of a lens are cut off, on one segment") {
   CHECK_FALSE(r.absorbed.any());
   CHECK(r.area == doctest::Approx(600).epsilon(1e-4));
 }
+
+TEST_CASE("a lens narrower than the tolerance is absorbed whole, also with points close to its tips") {
+  const double rise = 0.003, radius = (25 + rise * rise) / (2 * rise);
+  for (const int n : {8, 300}) {
+    const Result r(arc_on_front({5, 0, rise - radius}, {10, 0, 0}, n), 2);
+    CHECK(r.absorbed.faces == std::vector<Index>{0});
+    CHECK(r.smallest_angle > 20);
+    CHECK(r.area == doctest::Approx(600).epsilon(1e-4));
+  }
+}
