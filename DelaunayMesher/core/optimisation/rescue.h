@@ -7,11 +7,11 @@
 // Guard, over all tetrahedra that were changed: keeps_angles() holds, and the worst badness falls; or it
 // stays, as beside an angle that the CAD gives, and what they are short of 30 degrees becomes less.
 // Where one point is not enough, up to three more follow on the longest boundary edges of what is worst then.
-// Order: three efforts, what helps most elements for its time first, each with a bounded number of tries. A
-// trial is given up when it does not come nearer fast enough; one that failed is not made again, for whatever
-// element, before something beside its points has changed.
-// Precondition: EditMesh::start_clock().  Cost: 10 to 200 us for a trial, 0.3 to 3 ms for each that succeeds.
-// Known limit: a strip of the boundary ten times narrower than its elements stays.
+// Order: three efforts, what helps most elements for its time first, each with a number of tries, which grows
+// by those that help. A trial is given up when it does not come nearer fast enough; one that failed is not
+// made again, for whatever element, before something beside its points has changed. Precondition:
+// EditMesh::start_clock().  Cost: 10 to 200 us for a trial, 0.3 to 3 ms for each that succeeds. Known limit:
+// a strip of the boundary ten times narrower than its elements stays.
 #pragma once
 
 #include "optimisation/collapse.h"
