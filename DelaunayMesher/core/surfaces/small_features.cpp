@@ -1,10 +1,9 @@
 #include "surfaces/small_features.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
-#include "plc/segment_table.h"
+#include "surfaces/plc_editor.h"
 #include "surfaces/tips.h"
 
 namespace dm {
@@ -26,7 +25,7 @@ class Finder {
       : plc_(plc),
         geometry_(geometry),
         tolerance_(tolerance),
-        table_(plc),
+        editor_(plc),
         kept_face_(plc.face_solids.size(), 0),
         kept_edge_(plc.edge_count, 0) {
     for (const Index f : plc.kept_faces) kept_face_[f] = 1;
@@ -41,11 +40,11 @@ class Finder {
       return kept_edge_[tip.edge] || kept_edge_[tip.other_edge] || geometry_.is_facets(tip.face);
     });
     const std::vector<Index> faces = faces_with_narrow_places();
-    if (!faces.empty()) collect_triangles(faces);
+    if (!faces.empty()) editor_.collect(faces);
     search(faces);
     for (const Index f : faces)
       if (load(f)) collect_features(f);
-    drop_removed_triangles();
+    editor_.finish();
     std::stable_sort(found_.begin(), found_.end(),
                      [&](const SmallFeature& a, const SmallFeature& b) { return width(a) < width(b); });
     return std::move(found_);
@@ -58,7 +57,8 @@ class Finder {
   void keep_outlines() {
     for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
       for (int i = 0; kept_face_[plc_.triangle_face[t]] && i < 3; ++i) {
-        const Index s = table_.find(plc_.triangles[t][i], plc_.triangles[t][(i + 1) % 3]);
+        const auto [a, b] = editor_.side(static_cast<Index>(t), i);
+        const Index s = editor_.segment(a, b);
         if (s >= 0) kept_edge_[plc_.segment_edge[s]] = 1;
       }
   }
@@ -72,15 +72,10 @@ class Finder {
   void collect_edges() {
     length_.assign(plc_.edge_count, 0);
     ends_.resize(plc_.edge_count);
-    edges_of_.resize(plc_.points.size());
     for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
       const Index e = plc_.segment_edge[s];
       length_[e] += distance(at(plc_.segments[s][0]), at(plc_.segments[s][1]));
-      for (const Index p : plc_.segments[s]) {
-        std::vector<Index>& edges = edges_of_[p];
-        if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
-        toggle(ends_[e], p);
-      }
+      for (const Index p : plc_.segments[s]) toggle(ends_[e], p);
     }
   }
 
@@ -93,28 +88,21 @@ class Finder {
       ends.erase(found);
   }
 
-  Index segment(Index a, Index b) const {
-    const auto found = divided_.find(std::minmax(a, b));
-    return found != divided_.end() ? found->second : table_.find(a, b);
-  }
+  Index segment(Index a, Index b) const { return editor_.segment(a, b); }
+  bool on_curve(Index p) const { return editor_.on_curve(p); }
   bool tiny_edge(Index e) const { return ends_[e].size() == 2 && length_[e] < tolerance_(at(ends_[e][0])); }
-  bool on_curve(Index p) const { return !edges_of_[p].empty(); }
-  bool is_tracked(Index p, Index t) const { return on_curve(p) || searched_[plc_.triangle_face[t]]; }
   bool on_kept_curve(Index p) const {
-    return std::any_of(edges_of_[p].begin(), edges_of_[p].end(), [&](Index e) { return kept_edge_[e]; });
+    const std::vector<Index>& edges = editor_.edges_of(p);
+    return std::any_of(edges.begin(), edges.end(), [&](Index e) { return kept_edge_[e]; });
   }
-  bool share_edge(Index p, Index q) const {
-    for (const Index e : edges_of_[p])
-      if (std::find(edges_of_[q].begin(), edges_of_[q].end(), e) != edges_of_[q].end()) return true;
-    return false;
-  }
+  bool is_vertex(Index p) const { return editor_.edges_of(p).size() > 1; }
 
   // A side that would vanish: a tiny edge, or across the face from one curve to another.
   bool is_short(Index a, Index b) const {
     if (!on_curve(a) || !on_curve(b) || !(distance(at(a), at(b)) < tolerance_(at(a)))) return false;
     if (on_kept_curve(a) || on_kept_curve(b)) return false;
     const Index s = segment(a, b);
-    return s >= 0 ? tiny_edge(plc_.segment_edge[s]) : !share_edge(a, b);
+    return s >= 0 ? tiny_edge(plc_.segment_edge[s]) : !editor_.share_edge(a, b);
   }
 
   // Where the segment (a, b), a side of a triangle, passes its third corner p; nothing unless p is near, on
@@ -128,15 +116,15 @@ class Finder {
     if (s < 0) return false;
     const Index edge = plc_.segment_edge[s];
     if (kept_edge_[edge] || on_kept_curve(p)) return false;
-    if (std::find(edges_of_[p].begin(), edges_of_[p].end(), edge) != edges_of_[p].end()) return false;
+    if (editor_.is_on(p, edge)) return false;
     place = geometry_.project_to_edge(edge, at(a) + t * along);
     const double w = distance(place, at(p));
     if (!(w < limit) || std::min(distance(at(a), place), distance(at(b), place)) < 0.1 * w) return false;
     // A vertex within reach is faced rather than a place beside it, and the corner of a face is no strip.
     for (const Index end : {a, b}) {
       const double d = distance(at(end), at(p));
-      const bool joined = share_edge(end, p);
-      if (d < (edges_of_[end].size() > 1 && !joined ? limit : kFacing * w)) return false;
+      const bool joined = editor_.share_edge(end, p);
+      if (d < (is_vertex(end) && !joined ? limit : kFacing * w)) return false;
       if (d < kCorner * w && joined) return false;
     }
     return true;
@@ -150,7 +138,7 @@ class Finder {
     const double widest = kTipEnd * kPart * tolerance_(at(tip.point));
     Index a = tip.point, b = next_on(tip.edge, -1, a);
     while (b >= 0 && gap_at(tip, at(b)) < widest) {
-      const Index next = edges_of_[b].size() > 1 ? -1 : next_on(tip.edge, a, b);
+      const Index next = is_vertex(b) ? -1 : next_on(tip.edge, a, b);
       a = b;
       b = next;
     }
@@ -174,9 +162,9 @@ class Finder {
 
   // The point after b on the curve, coming from a; -1 = none.
   Index next_on(Index edge, Index a, Index b) const {
-    for (const Index t : round_[b])
+    for (const Index t : editor_.triangles_round(b))
       for (int i = 0; i < 3; ++i) {
-        const auto [p, q] = side(t, i);
+        const auto [p, q] = editor_.side(t, i);
         if (p != b && q != b) continue;
         const Index other = p == b ? q : p, s = segment(p, q);
         if (other != a && s >= 0 && plc_.segment_edge[s] == edge) return other;
@@ -202,19 +190,6 @@ class Finder {
     return faces;
   }
 
-  // Triangles of the faces that are searched, and those round their points and the points of curves.
-  void collect_triangles(const std::vector<Index>& faces) {
-    by_face_.resize(plc_.face_solids.size());
-    searched_.assign(plc_.face_solids.size(), 0);
-    for (const Index f : faces) searched_[f] = 1;
-    round_.resize(plc_.points.size());
-    for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
-      if (searched_[plc_.triangle_face[t]]) by_face_[plc_.triangle_face[t]].push_back(static_cast<Index>(t));
-      for (const Index p : plc_.triangles[t])
-        if (is_tracked(p, static_cast<Index>(t))) round_[p].push_back(static_cast<Index>(t));
-    }
-  }
-
   // ---- one face
 
   // A face is searched again where another one has divided its outline: a point there faces others, too.
@@ -222,59 +197,51 @@ class Finder {
   void search(const std::vector<Index>& faces) {
     std::vector<Index> again = faces;
     for (int round = 0; round < kMostRounds && !again.empty(); ++round) {
-      divided_by_other_.clear();
       for (const Index f : again)
         if (load(f)) search_face(f);
-      again.assign(divided_by_other_.begin(), divided_by_other_.end());
+      again.assign(editor_.divided_by_others().begin(), editor_.divided_by_others().end());
+      std::erase_if(again, [&](Index f) { return geometry_.is_facets(f); });
     }
   }
 
   // Makes a face the one at hand; false if it is folded onto itself.
   bool load(Index face) {
-    divided_by_other_.erase(face);
-    half_.clear();
     sharp_.clear();
     for (const Tip& tip : tips_)
       if (tip.face == face) sharp_.insert(tip.point);
-    for (const Index t : by_face_[face])
-      for (int i = 0; i < 3; ++i)
-        if (!half_.emplace(side(t, i), t).second) return false;
-    return true;
+    return editor_.load(face);
   }
 
   void search_face(Index face) {
-    steps_ = kMostSteps * by_face_[face].size() + 1000;
+    steps_ = kMostSteps * editor_.triangles_of(face).size() + 1000;
     for (const Tip& tip : tips_)
       if (tip.face == face) {
         cut_tip(tip);
         drop_points(tip);
       }
     std::vector<Segment> open;
-    for (const auto& [ends, t] : half_) open.push_back(ends);
+    for (const auto& [ends, t] : editor_.sides()) open.push_back(ends);
     flip(open);
     while (!open.empty() && steps_ > 0) {
       const Segment ends = open.back();
       open.pop_back();
-      const auto found = half_.find(ends);
-      if (found == half_.end()) continue;
+      const Index left = editor_.left_of(ends);
       Vec3 place;
-      if (!passes(ends[0], ends[1], apex(found->second, ends), place)) continue;
+      if (left < 0 || !passes(ends[0], ends[1], editor_.apex(left, ends), place)) continue;
       const Index v = divide(segment(ends[0], ends[1]), place, face);
       std::vector<Segment> around;
-      for (const Index t : round_[v])
+      for (const Index t : editor_.triangles_round(v))
         if (plc_.triangle_face[t] == face)
-          for (int i = 0; i < 3; ++i) around.push_back(side(t, i));
+          for (int i = 0; i < 3; ++i) around.push_back(editor_.side(t, i));
       flip(around);
       open.push_back({ends[0], v});
       open.push_back({v, ends[1]});
     }
   }
 
-  Segment side(Index t, int i) const { return {plc_.triangles[t][i], plc_.triangles[t][(i + 1) % 3]}; }
-  Index apex(Index t, const Segment& ends) const {
-    for (const Index p : plc_.triangles[t])
-      if (p != ends[0] && p != ends[1]) return p;
-    return -1;
+  Index divide(Index segment, const Vec3& place, Index face) {
+    --steps_;
+    return editor_.divide(segment, place, face);
   }
 
   double height(Index a, Index b, Index c) const {
@@ -284,17 +251,17 @@ class Finder {
 
   // Points of the tessellation inside the tip would lie between points that face each other.
   void drop_points(const Tip& tip) {
-    std::vector<Index> stack = by_face_[tip.face];
+    std::vector<Index> stack = editor_.triangles_of(tip.face);
     while (!stack.empty() && steps_ > 0) {
       const Index t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        const auto [a, b] = side(t, i);
-        const Index p = apex(t, {a, b});
+        const auto [a, b] = editor_.side(t, i);
+        const Index p = editor_.apex(t, {a, b});
         if (p < 0 || segment(a, b) < 0 || on_curve(p) || !lies_in(tip, p)) continue;
         const bool a_first = distance(at(a), at(p)) < distance(at(b), at(p));
-        const std::vector<Index> fan = round_[p];
-        if (!collapse(p, a_first ? a : b) && !collapse(p, a_first ? b : a)) continue;
+        const std::vector<Index> fan = editor_.triangles_round(p);
+        if (!editor_.collapse(p, a_first ? a : b) && !editor_.collapse(p, a_first ? b : a)) continue;
         --steps_;
         stack.insert(stack.end(), fan.begin(), fan.end());
         break;
@@ -306,78 +273,18 @@ class Finder {
     return gap_at(tip, at(p)) < limit && distance(at(p), geometry_.project_to_edge(tip.edge, at(p))) < limit;
   }
 
-  Vec3 area(const Triangle& v) const { return area_vector(at(v[0]), at(v[1]), at(v[2])); }
-
-  // Moves p, inside the face, to its neighbour q; false, and nothing done, if a triangle would turn over.
-  bool collapse(Index p, Index q) {
-    const std::vector<Index> fan = round_[p];
-    std::vector<Index> gone, kept;
-    Vec3 n;
-    for (const Index t : fan) {
-      (has(t, q) ? gone : kept).push_back(t);
-      n += area(plc_.triangles[t]);
-    }
-    if (gone.size() != 2) return false;
-    std::vector<Triangle> moved;
-    for (const Index t : kept) {
-      Triangle& v = moved.emplace_back(plc_.triangles[t]);
-      std::replace(v.begin(), v.end(), p, q);
-      if (!(dot(area(v), n) > 0)) return false;
-      for (const Index x : v) {
-        const bool linked = half_.contains({q, x}) || half_.contains({x, q}) || segment(q, x) >= 0;
-        if (x != q && linked && !has(gone[0], x) && !has(gone[1], x)) return false;
-      }
-    }
-    for (const Index t : fan)
-      for (int i = 0; i < 3; ++i) half_.erase(side(t, i));
-    for (const Index t : gone) {
-      for (const Index x : plc_.triangles[t]) std::erase(round_[x], t);
-      std::erase(by_face_[plc_.triangle_face[t]], t);
-      plc_.triangles[t] = {q, q, q};
-      removed_.push_back(t);
-    }
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      replace(kept[k], moved[k]);
-      for (int i = 0; i < 3; ++i) half_[side(kept[k], i)] = kept[k];
-    }
-    return true;
-  }
-
-  bool has(Index t, Index p) const {
-    return std::find(plc_.triangles[t].begin(), plc_.triangles[t].end(), p) != plc_.triangles[t].end();
-  }
-
-  void drop_removed_triangles() {
-    std::sort(removed_.begin(), removed_.end());
-    std::size_t to = 0;
-    for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
-      if (std::binary_search(removed_.begin(), removed_.end(), static_cast<Index>(t))) continue;
-      plc_.triangles[to] = plc_.triangles[t];
-      plc_.triangle_face[to++] = plc_.triangle_face[t];
-    }
-    plc_.triangles.resize(to);
-    plc_.triangle_face.resize(to);
-  }
-
   // Lawson flips among thin triangles.
   void flip(std::vector<Segment> stack) {
     while (!stack.empty() && steps_ > 0) {
       const Segment ends = stack.back();
       stack.pop_back();
-      const auto one = half_.find(ends), other = half_.find({ends[1], ends[0]});
-      if (one == half_.end() || other == half_.end() || segment(ends[0], ends[1]) >= 0) continue;
-      const Index s = one->second, t = other->second, c = apex(s, ends), d = apex(t, ends);
-      if (!wants_flip(ends[0], ends[1], c, d)) continue;
+      const Index s = editor_.left_of(ends), t = editor_.left_of({ends[1], ends[0]});
+      if (s < 0 || t < 0 || segment(ends[0], ends[1]) >= 0) continue;
+      if (!wants_flip(ends[0], ends[1], editor_.apex(s, ends), editor_.apex(t, ends))) continue;
       --steps_;
+      editor_.flip(ends, s, t);
       for (const Index u : {s, t})
-        for (int i = 0; i < 3; ++i) half_.erase(side(u, i));
-      replace(s, {c, ends[0], d});
-      replace(t, {d, ends[1], c});
-      for (const Index u : {s, t})
-        for (int i = 0; i < 3; ++i) {
-          half_[side(u, i)] = u;
-          stack.push_back(side(u, i));
-        }
+        for (int i = 0; i < 3; ++i) stack.push_back(editor_.side(u, i));
     }
   }
 
@@ -390,68 +297,24 @@ class Finder {
   // at c and d over 180 degrees together, and the new ones facing as the old.
   bool wants_flip(Index a, Index b, Index c, Index d) const {
     if (c == d || !may_flip(a, b, c) || !may_flip(b, a, d)) return false;
-    const Vec3 n1 = area({a, b, c}), n2 = area({b, a, d}), m1 = area({c, a, d}), m2 = area({d, b, c});
+    const Vec3 n1 = editor_.area({a, b, c}), n2 = editor_.area({b, a, d});
+    const Vec3 m1 = editor_.area({c, a, d}), m2 = editor_.area({d, b, c});
     const Vec3 n = n1 + n2;
-    if (!(dot(m1, n) > 0 && dot(m2, n) > 0) || half_.contains({c, d}) || half_.contains({d, c})) return false;
+    if (!(dot(m1, n) > 0 && dot(m2, n) > 0) || editor_.has_side(c, d)) return false;
     const double s1 = norm(n1), s2 = norm(n2);
     const double d1 = dot(at(a) - at(c), at(b) - at(c)), d2 = dot(at(a) - at(d), at(b) - at(d));
     return s1 * d2 + s2 * d1 < -kFlipMargin * (std::abs(s1 * d2) + std::abs(s2 * d1));
-  }
-
-  void replace(Index t, const Triangle& v) {
-    for (const Index p : plc_.triangles[t]) std::erase(round_[p], t);
-    plc_.triangles[t] = v;
-    for (const Index p : v)
-      if (is_tracked(p, t)) round_[p].push_back(t);
-  }
-
-  // Divides a segment and all its triangles at p; returns the new point.
-  Index divide(Index s, const Vec3& p, Index face) {
-    --steps_;
-    const auto [a, b] = plc_.segments[s];
-    const Index v = static_cast<Index>(plc_.points.size()), edge = plc_.segment_edge[s];
-    plc_.points.push_back(p);
-    round_.emplace_back();
-    edges_of_.push_back({edge});
-    const std::vector<Index> round = round_[a];
-    for (const Index t : round) {
-      const Triangle old = plc_.triangles[t];
-      if (std::find(old.begin(), old.end(), b) == old.end()) continue;
-      const Index n = static_cast<Index>(plc_.triangles.size()), f = plc_.triangle_face[t];
-      if (f == face)
-        for (int i = 0; i < 3; ++i) half_.erase(side(t, i));
-      Triangle first = old, second = old;
-      std::replace(first.begin(), first.end(), b, v);
-      std::replace(second.begin(), second.end(), a, v);
-      replace(t, first);
-      plc_.triangles.push_back(second);
-      plc_.triangle_face.push_back(f);
-      for (const Index q : second)
-        if (is_tracked(q, n)) round_[q].push_back(n);
-      if (searched_[f]) by_face_[f].push_back(n);
-      if (searched_[f] && f != face && !geometry_.is_facets(f)) divided_by_other_.insert(f);
-      if (f == face)
-        for (const Index u : {t, n})
-          for (int i = 0; i < 3; ++i) half_[side(u, i)] = u;
-    }
-    plc_.segments[s] = {a, v};
-    plc_.segments.push_back({v, b});
-    plc_.segment_edge.push_back(edge);
-    divided_[std::minmax(a, b)] = -1;
-    divided_[std::minmax(a, v)] = s;
-    divided_[std::minmax(v, b)] = static_cast<Index>(plc_.segments.size()) - 1;
-    return v;
   }
 
   // The short sides, by sets of triangles that hang together.
   void collect_features(Index face) {
     const auto short_sides = [&](Index t) {
       int n = 0;
-      for (int i = 0; i < 3; ++i) n += is_short(side(t, i)[0], side(t, i)[1]);
+      for (int i = 0; i < 3; ++i) n += is_short(editor_.side(t, i)[0], editor_.side(t, i)[1]);
       return n;
     };
     std::set<Index> left;
-    for (const Index t : by_face_[face])
+    for (const Index t : editor_.triangles_of(face))
       if (short_sides(t) > 0) left.insert(t);
     while (!left.empty()) {
       std::set<std::pair<Index, Index>> pairs;
@@ -464,22 +327,23 @@ class Finder {
         stack.pop_back();
         for (const Index p : plc_.triangles[t]) tip |= sharp_.contains(p);
         for (int i = 0; i < 3; ++i) {
-          const auto [a, b] = side(t, i);
+          const auto [a, b] = editor_.side(t, i);
           if (is_short(a, b)) pairs.insert(std::minmax(a, b));
-          const auto beside = half_.find({b, a});
-          if (beside == half_.end() || segment(a, b) >= 0 || left.erase(beside->second) == 0) continue;
-          stack.push_back(beside->second);
+          const Index beside = editor_.left_of({b, a});
+          if (beside < 0 || segment(a, b) >= 0 || left.erase(beside) == 0) continue;
+          stack.push_back(beside);
         }
       }
       SmallFeature feature(pairs.begin(), pairs.end());
-      if (tip && triangles < by_face_[face].size()) {
+      if (tip && triangles < editor_.triangles_of(face).size()) {
         std::erase_if(feature, [&](const auto& pair) { return !is_narrow({pair}); });
         if (!feature.empty()) found_.push_back(std::move(feature));
         continue;
       }
       // One side across closes no strip: it would only move the tip of a wedge.
       const bool edge = feature.size() == 1 && segment(feature[0].first, feature[0].second) >= 0;
-      if (edge || (feature.size() > 1 && (triangles == by_face_[face].size() || is_narrow(feature))))
+      if (edge ||
+          (feature.size() > 1 && (triangles == editor_.triangles_of(face).size() || is_narrow(feature))))
         found_.push_back(std::move(feature));
     }
   }
@@ -492,21 +356,13 @@ class Finder {
   Plc& plc_;
   const Geometry& geometry_;
   const Tolerance& tolerance_;
-  const SegmentTable table_;
+  PlcEditor editor_;
   std::vector<char> kept_face_, kept_edge_;
-  std::map<std::pair<Index, Index>, Index> divided_;  // what table_ does not know; -1 = no segment any more
-  std::vector<double> length_;                        // by edge, as its ends
+  std::vector<double> length_;  // by edge, as its ends
   std::vector<std::vector<Index>> ends_;
-  std::vector<std::vector<Index>> edges_of_;  // by point
-  std::vector<std::vector<Index>> round_;     // by point of a curve or of a face that is searched
-  std::vector<Index> removed_;                // triangles
-  std::vector<std::vector<Index>> by_face_;   // of faces that are searched: their triangles
-  std::vector<char> searched_;
-  std::set<Index> divided_by_other_;  // faces with new points since they were searched
   std::vector<Tip> tips_;
-  std::set<Index> sharp_;          // of the face at hand: points of its tips
-  std::map<Segment, Index> half_;  // of the face at hand: directed side -> triangle
-  std::size_t steps_ = 0;          // left for the face at hand
+  std::set<Index> sharp_;  // of the face at hand: points of its tips
+  std::size_t steps_ = 0;  // left for the face at hand
   std::vector<SmallFeature> found_;
 };
 
