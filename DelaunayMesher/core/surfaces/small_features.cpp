@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
 constexpr double kCorner = 2;    // ... from where two curves meet: 30 degrees
+constexpr double kTip = 6;       // ... in a tip: 10 degrees
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
@@ -120,11 +121,13 @@ class Finder {
     place = geometry_.project_to_edge(edge, at(a) + t * along);
     const double w = distance(place, at(p));
     if (!(w < limit) || std::min(distance(at(a), place), distance(at(b), place)) < 0.1 * w) return false;
-    // A vertex within reach is faced rather than a place beside it, and the corner of a face is no strip.
+    // A vertex within reach is faced rather than a place beside it, but for that at the tip of the strip: it
+    // is on the same curve as p.  The corner of a face is no strip.
     for (const Index end : {a, b}) {
       const double d = distance(at(end), at(p));
       const bool joined = editor_.share_edge(end, p);
-      if (d < (is_vertex(end) && !joined ? limit : kFacing * w)) return false;
+      const bool in_reach = is_vertex(end) && !(joined && d > kTip * w);
+      if (d < (in_reach ? limit : kFacing * w)) return false;
       if (d < kCorner * w && joined) return false;
     }
     return true;
