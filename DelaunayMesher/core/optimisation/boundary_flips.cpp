@@ -69,8 +69,8 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
   const auto area = [&](const Triangle& t) {
     return area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]));
   };
-  const Vec3 before =
-      normalized(area(mesh_.triangle(triangles[0]))) + normalized(area(mesh_.triangle(triangles[1])));
+  // The two after a flip have the same sum, even where one of the two before is folded back on the other.
+  const Vec3 before = area(mesh_.triangle(triangles[0])) + area(mesh_.triangle(triangles[1]));
   turned = {Triangle{a, c, d}, Triangle{b, d, c}};
   if (dot(area(turned[0]), before) < 0) turned = {Triangle{a, d, c}, Triangle{b, c, d}};
   for (const Triangle& t : turned) {

@@ -92,9 +92,14 @@ TEST_CASE("boundary flips keep every invariant of a random mesh") {
   CHECK(flips > 0);
 }
 
-// Below the base of the pyramid, bent down at its short diagonal: two triangles of the base are its own.
+// Below the base of the pyramid, bent down at its short diagonal: two triangles of the base are its own, and
+// one of them may be folded back on the other.
 TEST_CASE("a flat tetrahedron with two triangles of a CAD face is peeled off, or put back by a trial") {
+  Vec3 end;
+  SUBCASE("side by side") { end = {0.5, 0, 0}; }
+  SUBCASE("folded") { end = {-0.1, 0, -0.07}; }
   auto s = pyramid(0.5, 0.5);
+  s.mesh.points[1] = end;
   s.mesh.points[2].z = s.mesh.points[3].z = -0.1;
   s.mesh.tets.push_back({0, 1, 2, 3});
   s.mesh.tet_solid.push_back(1);
