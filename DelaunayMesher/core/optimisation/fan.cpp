@@ -11,7 +11,8 @@ namespace dm {
 namespace {
 
 constexpr float kThird = 1.0f / 3, kWeight = static_cast<float>(kBluntWeight);
-constexpr float kFlat = 0.99999f;  // cosine of a quarter of a degree
+constexpr float kSoftWeight = 0.35f;  // large angles count less for the mean, which is one of smallest angles
+constexpr float kFlat = 0.99999f;     // cosine of a quarter of a degree
 
 DM_INLINE float larger(float a, float b) { return a > b ? a : b; }
 DM_INLINE float smaller(float a, float b) { return a < b ? a : b; }
@@ -72,7 +73,9 @@ DM_INLINE FanScore score(const Fan& fan, const Vec3& apex, bool soft, float* bad
   extreme_cosines(fan, apex, 1, sharp, blunt);
   badness_of(fan.padded(), sharp, blunt, bad);
   for (int k = 0; k < fan.padded(); ++k) {
-    const float p2 = bad[k] * bad[k], p4 = p2 * p2, p8 = p4 * p4;
+    const float b =
+        soft && blunt[k] > -1 ? larger(sharp[k] - kThird, kSoftWeight * (kThird - blunt[k])) : bad[k];
+    const float p2 = b * b, p4 = p2 * p2, p8 = p4 * p4;
     power[k] = soft ? p2 : p8 * p8;
   }
   for (int k = fan.count; k < fan.padded(); ++k) power[k] = 0;

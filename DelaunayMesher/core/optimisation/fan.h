@@ -48,8 +48,8 @@ struct FanScore {
 // bad[k] = badness of (base k, apex); side -1: of (base k turned over, apex).
 void fan_badness(const Fan& fan, const Vec3& apex, float side, float* bad);
 
-// The same, and the sum of their powers p = 2 (soft) or 16 and the extreme angles.  A tetrahedron without
-// positive volume counts as flat: {1, -1}.
+// The same, and the sum of their powers p = 2 (soft, large angles counting less) or 16 and the extreme
+// angles.  A tetrahedron without positive volume counts as flat: {1, -1}.
 FanScore fan_score(const Fan& fan, const Vec3& apex, bool soft, float* bad);
 
 }  // namespace dm

@@ -63,6 +63,13 @@ TEST_CASE("the angles get better at both ends and on average, the volume stays")
   }
 }
 
+TEST_CASE("the mean of the smallest angles is what the rounds over the mesh raise") {
+  auto s = sample::box(14, 0.3, 1);
+  Context context;
+  run(s, context);
+  CHECK(mean_angle(s.mesh) > 49.6);  // 49.39 where large angles count as much as the guard does
+}
+
 TEST_CASE("the boundary keeps its triangles and its CAD elements") {
   auto s = sample::cylinder(1, 2, 12, 4);
   const auto faces = s.mesh.triangle_face;

@@ -34,7 +34,12 @@ TEST_CASE("the fan gives the badness of the plain formula, for both sides") {
     extremes.include(angle_cosines(a, b, c, apex));
   }
   const FanScore score = fan_score(fan, apex, true, bad);
-  for (int i = 0; i < 37; ++i) sum += bad[i] * bad[i];
+  for (int i = 0; i < 37; ++i) {
+    const auto& [a, b, c] = bases[i];
+    const AngleCosines angles = angle_cosines(a, b, c, apex);
+    const double soft = std::max(angles.sharp - 1.0 / 3, 0.35 * (1.0 / 3 - angles.blunt));
+    sum += bad[i] == kInverted ? kInverted * kInverted : soft * soft;
+  }
   CHECK(score.sum == doctest::Approx(sum));
   CHECK(score.extremes.sharp == doctest::Approx(extremes.sharp));
   CHECK(score.extremes.blunt == doctest::Approx(extremes.blunt));
