@@ -274,22 +274,27 @@ bool Inserter::list_edge(Index a, Index b) {
       if (!has(on_faces_, mesh_.triangle_face(k))) on_faces_.push_back(mesh_.triangle_face(k));
     }
   std::sort(on_faces_.begin(), on_faces_.end());
-  return !first_triangles_.empty();
+  return !first_tets_.empty();
 }
 
 bool Inserter::insert_on_edge(Index a, Index b) {
   if (mesh_.pinched(a) || mesh_.pinched(b) || !list_edge(a, b)) return false;
   const Index segment = mesh_.find_segment(a, b);
   if (segment == EditMesh::kTwice) return false;
+  split_ = {-1, -1};
+  place_ = 0.5 * (mesh_.point(a) + mesh_.point(b));
+  if (first_triangles_.empty()) {
+    entity_ = {3, mesh_.solid(first_tets_[0])};
+    return work_out();
+  }
   if (segment < 0) {
     if (on_faces_.size() > 1 || first_triangles_.size() > 2) return false;
-    split_ = {-1, -1};
     entity_ = {2, on_faces_[0]};
   } else {
     split_ = {a, b};
     entity_ = {1, mesh_.segment_edge(segment)};
   }
-  place_ = geometry_.project(entity_, 0.5 * (mesh_.point(a) + mesh_.point(b)));
+  place_ = geometry_.project(entity_, place_);
   return work_out();
 }
 

@@ -21,8 +21,9 @@ class Inserter {
   Inserter(EditMesh& mesh, Smoother& smoother, const Geometry& geometry)
       : mesh_(mesh), smoother_(smoother), geometry_(geometry) {}
 
-  // Puts a point, the last one of the mesh then, into a cavity with `tet`.  Place 0: inside; 1 to 6: on a
-  // boundary edge, the longest first; 7 to 10: on a boundary triangle.  False when that is impossible.
+  // Puts a point, the last one of the mesh then, into a cavity with `tet`.  Place 0: inside; 1 to 6: on an
+  // edge with both ends on the boundary (across a wall it is inside), the longest first; 7 to 10: on a
+  // boundary triangle.  False when that is impossible.
   bool insert(Index tet, int place);
   // The corners of that edge or triangle, -1 for those missing; all -1 when there is none.
   Triangle site(Index tet, int place) const;

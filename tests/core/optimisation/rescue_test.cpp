@@ -177,6 +177,23 @@ TEST_CASE("poor elements are rescued, none that a rescue touches gets worse") {
   CHECK(sample::volume(s.mesh) == doctest::Approx(32));
 }
 
+TEST_CASE("edges from side to side through a wall are divided inside it") {
+  auto s = sample::box(1, 0);  // all corners on the boundary, one edge is not
+  Tools tools(s);
+  int inside = 0;
+  for (int place = 1; place <= 6; ++place) {
+    tools.edit.begin_trial();
+    if (tools.inserter.insert(0, place)) inside += tools.edit.interior(tools.edit.vertex_count() - 1);
+    tools.edit.end_trial(false);
+  }
+  CHECK(inside == 1);
+  CHECK(tools.inserter.insert(0, 1));  // the longest
+  CHECK(distance(tools.edit.point(tools.edit.vertex_count() - 1), {0.5, 0.5, 0.5}) < 0.1);
+  tools.edit.finish();
+  check(s, tools.geometry);
+  CHECK(sample::volume(s.mesh) == doctest::Approx(1));
+}
+
 // Elements of more than 166 degrees were refused as flat: a needle of a boundary edge has no others at first.
 TEST_CASE("a point may be put where new elements are nearly flat at first, not flat") {
   auto s = slab();
