@@ -49,3 +49,23 @@ def test_wedges_from_90_to_1_degree():
     counts = [check_wedge(angle)[0] for angle in (90, 75, 60, 45, 30, 20, 15, 10, 7, 5, 3, 2, 1.5, 1)]
     for wider, sharper in zip(counts, counts[1:]):
         assert sharper < 1.05 * wider
+
+
+def spike():
+    """Points and triangles of a pyramid of height 1 on a square of 0.03."""
+    a = 0.03
+    points = np.array([(0, 0, 0), (a, 0, 0), (a, a, 0), (0, a, 0), (a / 2, a / 2, 1)], float)
+    return points, np.array([(0, 2, 1), (0, 3, 2), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+
+
+@pytest.mark.parametrize("sharp", [wedge(2), spike()])
+def test_what_is_forced_by_the_input_is_said_to_be(sharp):
+    """Also away from the sharp edge or tip, where elements reach from one side to the other."""
+    forced = [bad for bad in mesh(sharp, max_size=SIZE, threads=1).below_target if bad["angle"] < 10]
+    assert forced
+    assert {bad["reason"] for bad in forced} == {"input_angle"}
+
+
+def test_what_is_not_forced_by_the_input_is_not_said_to_be():
+    made = mesh(wedge(90), max_size=0.3, target_angle=30, optimise=False, threads=1)
+    assert {bad["reason"] for bad in made.below_target} == {"fallback"}

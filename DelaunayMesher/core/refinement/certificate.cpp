@@ -1,6 +1,8 @@
 #include "refinement/certificate.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <unordered_map>
 
 #include "base/tet_geometry.h"
@@ -16,37 +18,82 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::acos(std::clamp(dot(normalized(a), normalized(b)), -1.0, 1.0)) * kDegrees;
 }
 
-// Points at which the input itself is sharp: on a CAD edge with acute faces, or at a corner of acute CAD
-// edges.
-std::vector<char> sharp_points(const VolumeMesh& mesh) {
-  std::vector<char> sharp(mesh.points.size(), 0);
-  std::unordered_map<std::uint64_t, std::vector<Vec3>> wings;  // per segment, directions into its triangles
+// Where the input itself is sharp.
+struct SharpInput {
+  std::vector<char> point;  // on a CAD edge with acute faces, or at a corner of acute CAD edges
+  std::set<std::pair<Index, Index>> faces;         // that meet at such an edge, both orders
+  std::vector<std::vector<Index>> corners;         // the faces that meet at such a corner
+  std::unordered_multimap<Index, Index> faces_of;  // by point, of all these
+};
+
+// The faces at the corners, and which points those of corners and acute edges have.
+void collect_faces(const VolumeMesh& mesh, const std::set<Index>& corners, SharpInput& sharp) {
+  std::map<Index, std::set<Index>> faces_at;
+  std::set<Index> all;
+  for (const auto& [f, g] : sharp.faces) all.insert(f);
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    for (const Index p : mesh.triangles[k])
+      if (corners.contains(p)) faces_at[p].insert(mesh.triangle_face[k]);
+  for (const auto& [p, faces] : faces_at) {
+    sharp.corners.emplace_back(faces.begin(), faces.end());
+    all.insert(faces.begin(), faces.end());
+  }
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    for (const Index p : mesh.triangles[k])
+      if (all.contains(mesh.triangle_face[k])) sharp.faces_of.emplace(p, mesh.triangle_face[k]);
+}
+
+SharpInput find_sharp_input(const VolumeMesh& mesh) {
+  struct Wing {
+    Vec3 direction;  // from the segment into a triangle
+    Index face;
+  };
+  SharpInput sharp{std::vector<char>(mesh.points.size(), 0), {}, {}, {}};
+  std::set<Index> corners;
+  std::unordered_map<std::uint64_t, std::vector<Wing>> wings;  // by segment
   for (const auto& [a, b] : mesh.segments) wings[BoundaryComplex::key(a, b)];
-  for (const Triangle& t : mesh.triangles) {
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const Triangle& t = mesh.triangles[k];
     for (int i = 0; i < 3; ++i) {
       const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
-      const auto it = wings.find(BoundaryComplex::key(a, b));
-      if (it == wings.end()) continue;
-      const Vec3 axis = normalized(mesh.points[b] - mesh.points[a]);
-      const Vec3 w = mesh.points[c] - mesh.points[a];
-      it->second.push_back(w - dot(w, axis) * axis);
-    }
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 p = mesh.points[t[i]];
-      const double corner = angle_between(mesh.points[t[(i + 1) % 3]] - p, mesh.points[t[(i + 2) % 3]] - p);
-      if (corner < kAcuteAngle / 2 && mesh.point_entity[t[i]].dimension == 0) sharp[t[i]] = 1;
+      const Vec3 p = mesh.points[a], w = mesh.points[c] - p, axis = normalized(mesh.points[b] - p);
+      if (const auto it = wings.find(BoundaryComplex::key(a, b)); it != wings.end())
+        it->second.push_back({w - dot(w, axis) * axis, mesh.triangle_face[k]});
+      if (angle_between(axis, w) < kAcuteAngle / 2 && mesh.point_entity[a].dimension == 0) corners.insert(a);
     }
   }
   for (const auto& [a, b] : mesh.segments) {
     const auto& w = wings[BoundaryComplex::key(a, b)];
     for (std::size_t i = 0; i < w.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (angle_between(w[i], w[j]) < kAcuteAngle) sharp[a] = sharp[b] = 1;
+        if (angle_between(w[i].direction, w[j].direction) < kAcuteAngle) {
+          sharp.point[a] = sharp.point[b] = 1;
+          sharp.faces.insert({w[i].face, w[j].face});
+          sharp.faces.insert({w[j].face, w[i].face});
+        }
   }
+  for (const Index p : corners) sharp.point[p] = 1;
+  collect_faces(mesh, corners, sharp);
   return sharp;
 }
 
-BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const std::vector<char>& sharp, Index tet,
+// At a sharp place, from one face of a wedge to the other, or between three faces of a needle.
+bool is_in_sharp_part(const SharpInput& sharp, const Tet& v) {
+  std::set<Index> touched;
+  for (const Index p : v) {
+    if (sharp.point[p]) return true;
+    const auto [first, last] = sharp.faces_of.equal_range(p);
+    for (auto it = first; it != last; ++it) touched.insert(it->second);
+  }
+  for (const Index f : touched)
+    for (const Index g : touched)
+      if (sharp.faces.contains({f, g})) return true;
+  return std::any_of(sharp.corners.begin(), sharp.corners.end(), [&](const std::vector<Index>& faces) {
+    return std::count_if(faces.begin(), faces.end(), [&](Index f) { return touched.contains(f); }) >= 3;
+  });
+}
+
+BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const SharpInput& sharp, Index tet,
                     double angle) {
   const Tet& v = mesh.tets[tet];
   BelowTarget out{tet, angle, "fallback", {}, {}};
@@ -55,7 +102,7 @@ BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const std::ve
     const Entity e = mesh.point_entity[p];
     if (e.dimension < 3 && (out.entity.dimension < 0 || e.dimension > out.entity.dimension)) out.entity = e;
   }
-  if (std::any_of(v.begin(), v.end(), [&](Index p) { return sharp[p] != 0; }))
+  if (is_in_sharp_part(sharp, v))
     out.reason = "input_angle";
   else if (size.smallest() < size.largest() && size.at(out.place) <= 1.001 * size.smallest())
     out.reason = "size_floor";
@@ -66,12 +113,12 @@ BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const std::ve
 
 std::vector<BelowTarget> certify(const VolumeMesh& mesh, const SizeField& size, double target_angle) {
   std::vector<BelowTarget> out;
-  std::vector<char> sharp;
+  SharpInput sharp;
   for (Index t = 0; t < static_cast<Index>(mesh.tets.size()); ++t) {
     const auto [a, b, c, d] = mesh.tets[t];
     const double angle = dihedral_range(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]).min;
     if (angle >= target_angle) continue;
-    if (sharp.empty()) sharp = sharp_points(mesh);
+    if (out.empty()) sharp = find_sharp_input(mesh);
     out.push_back(explain(mesh, size, sharp, t, angle));
   }
   return out;

@@ -21,8 +21,9 @@ struct BelowTarget {
 // target.
 inline constexpr double kAcuteAngle = 45;
 
-// Reasons: "input_angle" - the element touches a CAD edge whose faces meet below kAcuteAngle, or a boundary
-// triangle forced sharp by the CAD; "size_floor" - the wanted size there is the smallest allowed; else
+// Reasons: "input_angle" - the element touches a CAD edge whose faces meet below kAcuteAngle, or reaches from
+// one of these faces to the other; or it touches a CAD vertex where a face has a corner of less than half of
+// that, or three faces that meet there.  "size_floor" - the wanted size there is the smallest allowed.  Else
 // "fallback".
 std::vector<BelowTarget> certify(const VolumeMesh& mesh, const SizeField& size, double target_angle);
 
