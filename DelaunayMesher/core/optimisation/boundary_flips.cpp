@@ -1,5 +1,6 @@
 // Flips of boundary edges (flips.h).
 #include "optimisation/flips.h"
+#include "optimisation/sagitta.h"
 
 namespace dm {
 namespace {
@@ -78,12 +79,9 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
     // share_edge() does not see the parts that touch at a pinched point.
     if (mesh_.find_triangle(t[0], t[1], t[2]) >= 0) return false;
   }
-  if (geometry.is_plane(face)) return true;
-  const auto sagitta = [&](Index p, Index q) {
-    const Vec3 middle = 0.5 * (mesh_.point(p) + mesh_.point(q));
-    return distance(middle, geometry.project_to_face(face, middle));
-  };
-  return sagitta(c, d) <= 1.2 * sagitta(a, b);
+  const Vec3 middle = 0.5 * (mesh_.point(c) + mesh_.point(d));
+  Segment old_edge{a, b};
+  return lies_as_close(mesh_, geometry, face, {&middle, 1}, {&old_edge, 1});
 }
 
 bool Flipper::flip_boundary_edge(Index tet, int ia, int ib, const Geometry& geometry) {

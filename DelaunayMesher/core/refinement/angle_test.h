@@ -35,7 +35,8 @@ unsigned exempt_angles(const BoundaryComplex& complex, Index v0, Index v1, Index
 // Sharpness of a tetrahedron of the mesh, acute segments left out.
 double tet_sharpness(const LabelledTriangulation& mesh, Index tet);
 
-// Is the tetrahedron flat to rounding: six times its volume below 1e-7 of its longest edge cubed?
+// Is the tetrahedron as flat as CAD's points in a plane are: six times its volume below 1e-7 of its longest
+// edge cubed?
 bool is_flat(const Triangulation& tets, Index tet);
 
 // Circumradius bound of the refinement: rho(x)^2.

@@ -1,4 +1,4 @@
-// Tetrahedra that are flat to rounding on the outer boundary are left out of the mesh: their volume is
+// Tetrahedra on the outer boundary that are flat (is_flat()) are left out of the mesh: their volume is
 // nothing, and no solver takes them.
 //
 // They are left where the input forces them: tangential contacts, faces closer than rounding.  Precondition

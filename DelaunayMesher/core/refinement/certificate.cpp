@@ -21,7 +21,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 // Where the input itself is sharp.
 struct SharpInput {
   std::vector<char> point;  // on a CAD edge with acute faces, or at a corner of acute CAD edges
-  std::set<std::pair<Index, Index>> faces;         // that meet at such an edge, both orders
+  std::set<std::pair<Index, Index>> faces;         // two that meet at such an edge, the lower one first
   std::vector<std::vector<Index>> corners;         // the faces that meet at such a corner
   std::unordered_multimap<Index, Index> faces_of;  // by point, of all these
 };
@@ -30,7 +30,7 @@ struct SharpInput {
 void collect_faces(const VolumeMesh& mesh, const std::set<Index>& corners, SharpInput& sharp) {
   std::map<Index, std::set<Index>> faces_at;
   std::set<Index> all;
-  for (const auto& [f, g] : sharp.faces) all.insert(f);
+  for (const auto& [f, g] : sharp.faces) all.insert({f, g});
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
     for (const Index p : mesh.triangles[k])
       if (corners.contains(p)) faces_at[p].insert(mesh.triangle_face[k]);
@@ -68,8 +68,7 @@ SharpInput find_sharp_input(const VolumeMesh& mesh) {
       for (std::size_t j = 0; j < i; ++j)
         if (angle_between(w[i].direction, w[j].direction) < kAcuteAngle) {
           sharp.point[a] = sharp.point[b] = 1;
-          sharp.faces.insert({w[i].face, w[j].face});
-          sharp.faces.insert({w[j].face, w[i].face});
+          if (w[i].face != w[j].face) sharp.faces.insert(std::minmax(w[i].face, w[j].face));
         }
   }
   for (const Index p : corners) sharp.point[p] = 1;
