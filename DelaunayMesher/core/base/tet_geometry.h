@@ -1,4 +1,4 @@
-// Plain floating-point geometry of one tetrahedron: circumsphere and dihedral angles.
+// Plain floating-point geometry of one tetrahedron: circumsphere, dihedral and solid angles.
 #pragma once
 
 #include <algorithm>
@@ -49,6 +49,14 @@ inline AngleRange dihedral_range(const Vec3& a, const Vec3& b, const Vec3& c, co
   const auto cosines = dihedral_cosines(a, b, c, d);
   const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
   return {std::acos(*high) * 180 / std::numbers::pi, std::acos(*low) * 180 / std::numbers::pi};
+}
+
+// The solid angle of a triangle seen from the origin, positive when it is seen clockwise from there (Van
+// Oosterom and Strackee 1983).
+inline double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = norm(a), lb = norm(b), lc = norm(c);
+  const double below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return 2 * std::atan2(dot(a, cross(b, c)), below);
 }
 
 }  // namespace dm

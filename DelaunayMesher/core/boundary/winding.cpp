@@ -1,8 +1,9 @@
 #include "boundary/winding.h"
 
 #include <cmath>
-
 #include <numbers>
+
+#include "base/tet_geometry.h"
 
 namespace dm {
 
@@ -51,19 +52,13 @@ double WindingNumber::at(const Vec3& place) const {
     } else if (node.count == 0) {
       stack.insert(stack.end(), {node.first, node.first + 1});
     } else {
-      for (Index k = node.first; k < node.first + node.count; ++k)
-        sum += solid_angle(triangles_[tree_.order()[k]], place);
+      for (Index k = node.first; k < node.first + node.count; ++k) {
+        const auto& [a, b, c] = triangles_[tree_.order()[k]];
+        sum += solid_angle(points_[a] - place, points_[b] - place, points_[c] - place);
+      }
     }
   }
   return sum / (4 * std::numbers::pi);
-}
-
-// Van Oosterom and Strackee 1983.
-double WindingNumber::solid_angle(const Triangle& t, const Vec3& place) const {
-  const Vec3 a = points_[t[0]] - place, b = points_[t[1]] - place, c = points_[t[2]] - place;
-  const double la = norm(a), lb = norm(b), lc = norm(c);
-  const double below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2 * std::atan2(dot(a, cross(b, c)), below);
 }
 
 }  // namespace dm

@@ -29,7 +29,6 @@ class WindingNumber {
     double radius = 0;  // of the ball round the centre that holds the triangles
   };
   void add_up(Index node);
-  double solid_angle(const Triangle& t, const Vec3& place) const;
 
   const std::vector<Vec3>& points_;
   std::vector<Triangle> triangles_;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/tet_geometry.h"
 #include "surfaces/crossings.h"
 #include "surfaces/edge_paths.h"
 
@@ -112,7 +113,7 @@ class NarrowPlaces {
         const auto towards = [&](int k) {
           return normalized(mesh_.points[mesh_.triangles[t][(i + k) % 3]] - mesh_.points[p]);
         };
-        const double area = area_on_sphere(towards(2), towards(1), direction);
+        const double area = solid_angle(towards(2), towards(1), direction);
         const auto [behind, front] = plc_.face_solids[mesh_.triangle_face[t]];
         angles[{p, behind}] += area;
         angles[{p, front}] -= area;
@@ -122,11 +123,6 @@ class NarrowPlaces {
       const double whole = 4 * std::numbers::pi, angle = sum - whole * std::floor(sum / whole);
       if (key[1] > 0 && std::min(angle, whole - angle) < kSharp) sharp_[key[0]] = 1;
     }
-  }
-
-  // Van Oosterom and Strackee 1983; a, b, c of length 1.
-  static double area_on_sphere(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
   }
 
   bool is_segment(Index a, Index b) {
