@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from DelaunayMesher import mesh, quality
+from DelaunayMesher.plc import Plc
 
 SIZE = 0.05
 
@@ -69,3 +70,21 @@ def test_what_is_forced_by_the_input_is_said_to_be(sharp):
 def test_what_is_not_forced_by_the_input_is_not_said_to_be():
     made = mesh(wedge(90), max_size=0.3, target_angle=30, optimise=False, threads=1)
     assert {bad["reason"] for bad in made.below_target} == {"fallback"}
+
+
+def test_a_face_that_meets_itself_explains_only_what_lies_at_the_edge():
+    """The outline is a drop: two lines at 40 degrees and an arc, one face all round."""
+    half = np.radians(20)
+    arc = np.linspace(np.pi / 2 + half, -np.pi / 2 - half, 30)
+    outline = np.concatenate([[(0, 0)], [(np.cos(a) + 1 / np.sin(half), np.sin(a)) for a in arc]])
+    n = len(outline)
+    points = np.concatenate([np.insert(outline, 2, z, axis=1) for z in (0, 1)])
+    sides = [((i + 1) % n, i, i + n, (i + 1) % n + n) for i in range(n)]
+    triangles = [(a, b, c) for a, b, c, _ in sides] + [(a, c, d) for a, _, c, d in sides]
+    triangles += [(0, i, i + 1) for i in range(1, n - 1)] + [(n, n + i + 1, n + i) for i in range(1, n - 1)]
+    drop = Plc.from_triangles(points, np.array(triangles))
+    assert len(drop.face_solids) == 3
+    made = mesh(drop, max_size=0.15, target_angle=30, optimise=False, threads=1)
+    away = [bad["reason"] for bad in made.below_target if bad["place"][0] > 1]
+    assert away
+    assert set(away) == {"fallback"}

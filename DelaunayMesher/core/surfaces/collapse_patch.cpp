@@ -12,6 +12,10 @@ constexpr double kAligned = 0.5;      // of triangles of the wanted size
 constexpr double kSlack = 0.1;        // of alignment, where the triangles are poorly aligned already
 constexpr double kWorstShape = 1e-4;  // of a triangle that a collapse may leave (flips improve it afterwards)
 constexpr double kLongest = 1.45;     // edge made by a collapse, over the wanted length
+// Longer edges do no harm where the new triangles follow a smooth surface closely; without them the short
+// edges that a tessellation has round the pole of a sphere stay.
+constexpr double kLongestFlat = 2.0;
+constexpr double kFlat = 0.95;
 
 }  // namespace
 
@@ -124,7 +128,10 @@ void PatchRemesher::collapse_short(double ratio) {
           e = FacePatch::prev(c);
         }
       });
-      if (e < 0 || !patch_.can_collapse(e, v) || collapse_quality(e, v, kLongest, kAligned) < 0) continue;
+      if (e < 0 || !patch_.can_collapse(e, v)) continue;
+      if (collapse_quality(e, v, kLongest, kAligned) < 0 &&
+          (geometry_.is_facets(face_) || collapse_quality(e, v, kLongestFlat, kFlat) < 0))
+        continue;
       const Index keep = patch_.target(e);
       patch_.collapse(e, v);
       push_star(keep);
