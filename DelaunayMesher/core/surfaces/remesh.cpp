@@ -161,6 +161,7 @@ class SurfaceMesher {
     patches_[f] = source.extract(f);
     left_[f].clear();
     PatchRemesher remesher(patches_[f], f, geometry_, lengths_, options_, context_.seed, poll);
+    if (mode_[f] == FaceMode::refined) remesher.split_across_bends();
     if (mode_[f] != FaceMode::remeshed) remesher.insert_samples();
     if (mode_[f] == FaceMode::refined) remesher.refine(kRefined);
     if (mode_[f] == FaceMode::remeshed) left_[f] = remesher.run();

@@ -16,10 +16,22 @@ constexpr double kAligned = 0.85;
 constexpr double kAlignedShort = 0.5;  // ... and within 60 where the new edge is no longer than
 constexpr double kShort = 2;           // this many wanted lengths
 constexpr double kDegenerate = 1e-10;  // area over the square of the longest edge
+constexpr double kBend = 0.5;          // cosine of what an edge may turn: 60 degrees
+constexpr int kBendRounds = 6;         // each halves what bends too far
+constexpr double kStraight = 1e-6;     // radians
 constexpr double kFlipMargin = 1e-6;   // keeps rounding from flipping back and forth
 
 double longest2(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
+}
+
+// From the middle of a chord to that of the circular arc over it, by the normals at its ends.  (The chord's
+// own middle may be close to the arc's axis, from where every direction is as near.)
+Vec3 rise_of_arc(const Vec3& chord, const Vec3& normal_a, const Vec3& normal_b) {
+  const Vec3 across = normal_b - normal_a, outwards = normal_a + normal_b;
+  const double sine = norm(across) / 2, cosine = norm(outwards) / 2;  // of half the angle
+  if (sine < kStraight || cosine < kStraight) return {};
+  return dot(chord, across) / (4 * (1 + cosine)) * (1 / (2 * cosine)) * outwards;
 }
 
 }  // namespace
@@ -39,6 +51,7 @@ PatchRemesher::PatchRemesher(FacePatch& patch, Index face, const Geometry& geome
 }
 
 std::vector<Index> PatchRemesher::run() {
+  split_across_bends();
   insert_samples();
   make_delaunay();
   remove_dropped(kAligned);
@@ -76,7 +89,6 @@ void PatchRemesher::start_vertices() {
     set_vertex(v, patch_.points[v], {});
     if ((v & 255) == 0) poll_();
   }
-  if (!planar_) drop_doubtful_normals();
 }
 
 // At an apex or pole the surface has no normal, and what the geometry says there misleads.
@@ -123,6 +135,74 @@ double PatchRemesher::radius_ratio(Index t) const {
   return product / (2 * std::max(area2, kDegenerate * longest2(a, b, c)) * length);
 }
 
+// ---- bends
+
+// CAD kernels now and then lay triangles across a whole fillet, or along it so thin that the bend in the
+// other direction turns them over.  Points beside such a triangle project anywhere, so its edges are split
+// first, the one farthest from the surface before the others, each at the middle of its arc.
+void PatchRemesher::split_across_bends() {
+  if (planar_ || geometry_.is_facets(face_) || !spans_bend()) return;
+  for (int round = 0; round < kBendRounds; ++round) {
+    std::vector<std::pair<Index, Index>> across;
+    for (Index t = 0; t < patch_.triangle_slots(); ++t) {
+      if (!patch_.alive(t)) continue;
+      const Index* v = &patch_.vertex[3 * t];
+      if (alignment(v[0], v[1], v[2]) >= kAlignedShort) continue;
+      if (const Index e = highest_edge(t); e >= 0) across.emplace_back(patch_.origin(e), patch_.target(e));
+    }
+    bool any = false;
+    for (const auto& [a, b] : across) any |= split_arc(a, b);
+    poll_();
+    if (!any) return;
+  }
+}
+
+// Does a long edge turn by much?
+bool PatchRemesher::spans_bend() const {
+  for (Index e = 0; e < 3 * patch_.triangle_slots(); ++e) {
+    if (!patch_.alive(e / 3) || patch_.twin[e] < e) continue;
+    const Index a = patch_.origin(e), b = patch_.target(e);
+    const Vec3 &na = patch_.normals[a], &nb = patch_.normals[b];
+    if (norm2(na) > 0 && norm2(nb) > 0 && dot(na, nb) < kBend && edge_ratio(a, b) > 1) return true;
+  }
+  return false;
+}
+
+Vec3 PatchRemesher::rise(Index a, Index b) const {
+  return rise_of_arc(points()[b] - points()[a], patch_.normals[a], patch_.normals[b]);
+}
+
+// The edge of t whose arc rises highest; -1 if none does.
+Index PatchRemesher::highest_edge(Index t) const {
+  Index highest = -1;
+  double most2 = 0;
+  for (Index e = 3 * t; e < 3 * t + 3; ++e)
+    if (const double r2 = norm2(rise(patch_.origin(e), patch_.target(e)));
+        r2 > most2 && edge_ratio(patch_.origin(e), patch_.target(e)) > 1) {
+      most2 = r2;
+      highest = e;
+    }
+  return highest;
+}
+
+bool PatchRemesher::split_arc(Index a, Index b) {
+  const Index e = patch_.find_edge(a, b);
+  if (e < 0 || patch_.twin[e] < 0) return false;
+  const Vec3 na = patch_.normals[a], nb = patch_.normals[b];
+  const Vec3 middle = 0.5 * (points()[a] + points()[b]) + rise(a, b);
+  const Vec3 p = geometry_.project_to_face(face_, middle);
+  if (!(distance(p, middle) < 0.25 * distance(points()[a], points()[b]))) return false;
+  const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
+  set_vertex(x, p, na + nb);
+  const Vec3& n = patch_.normals[x];
+  if (!(std::min(dot(n, na), dot(n, nb)) > dot(na, nb))) {  // at an apex the normals mislead
+    patch_.pop_vertex();
+    return false;
+  }
+  patch_.split_edge(e, x);
+  return true;
+}
+
 // ---- samples of the boundary
 
 void PatchRemesher::insert_samples() {
@@ -134,6 +214,7 @@ void PatchRemesher::insert_samples() {
     const double length2 = norm2(points()[patch_.target(e)] - points()[part.origin]);
     longest.emplace(length2, part.origin, part.first, part.last);
   };
+  if (!planar_) drop_doubtful_normals();
   for (const Pending& part : patch_.pending) push(part);
   patch_.pending.clear();
   std::size_t steps = 0;

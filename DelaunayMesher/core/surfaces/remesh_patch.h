@@ -1,13 +1,13 @@
 // Remeshing of one face's patch by local operations in space, not in the (u, v) plane.
 //
-// Idea: the tessellation is only the map on which this happens.  The curve samples are put in its boundary,
-// always in the longest edge: between fine samples and a coarse triangulation the curve's bulge would turn
-// triangles over.  Old boundary points are collapsed away,
-// short edges too; then triangles whose circumradius exceeds the wanted one get a point near their
-// circumcentre (Chew 1993, on the surface; randomly displaced because exact centres leave slivers), largest
-// first, with Lawson flips after every insertion; Laplacian smoothing weighted by the wanted size evens the
-// result out. Each new point is projected on the exact surface; no operation may turn a triangle away from
-// the surface's normal.
+// Idea: the tessellation is only the map on which this happens.  Where it does not follow the surface its
+// edges are split first.  The curve samples are put in its boundary, always in the longest edge: between fine
+// samples and a coarse triangulation the curve's bulge would turn triangles over.  Old boundary points are
+// collapsed away, short edges too; then triangles whose circumradius exceeds the wanted one get a point near
+// their circumcentre (Chew 1993, on the surface; randomly displaced because exact centres leave slivers),
+// largest first, with Lawson flips after every insertion; Laplacian smoothing weighted by the wanted size
+// evens the result out. Each new point is projected on the exact surface; no operation may turn a triangle
+// away from the surface's normal.
 //
 // Precondition: a patch from PatchSource::extract.  Postcondition: boundary = the sampled curves, except for
 // the vertices that remesh_patch returns.  Cost: O(triangles) on surfaces that the tessellation resolves.
@@ -45,6 +45,7 @@ class PatchRemesher {
   std::vector<Index> run();
 
   // The steps, each leaving a valid patch.
+  void split_across_bends();
   void insert_samples();  // puts the pending samples in, coarse to fine, with Lawson flips in between
   void make_delaunay();   // Lawson flips over the whole patch
   // Collapses old boundary points; `aligned`: the least alignment of triangles that this may leave.
@@ -72,6 +73,11 @@ class PatchRemesher {
   // Puts v at p.  The normal's sign follows `hint` (near-degenerate surfaces have two sheets at hardly any
   // distance); a zero hint leaves it to the geometry.
   void set_vertex(Index v, const Vec3& p, const Vec3& hint);
+
+  bool spans_bend() const;
+  Vec3 rise(Index a, Index b) const;  // from the edge's middle to that of its arc
+  Index highest_edge(Index t) const;
+  bool split_arc(Index a, Index b);
 
   bool violates_delaunay(Index e) const;
   bool can_flip(Index e) const;
