@@ -14,6 +14,7 @@ constexpr double kLongEdge = 1.4;      // split at its middle when no centre wil
 constexpr double kClosest = 0.55;      // least distance of a new point from old ones, over the wanted length
 constexpr double kBoundaryHeight = 0.3;  // ... and from boundary edges, over their length
 constexpr double kFairShape = 0.2;       // a middle may not leave flatter triangles, unless they were before
+constexpr double kFlat = 1e-6;           // ... ever: what lies on a line would be divided for ever
 constexpr double kOnEdge = 0.02;   // height over the edge's length under which a point goes into the edge
 constexpr double kSameSide = 0.5;  // cosine between normals that may be walked over
 constexpr int kBucketsPerOctave = 4;
@@ -197,7 +198,7 @@ bool PatchRemesher::split_at_middle(Index e) {
   const double shape_before = std::min(triangle_shape(pa, pb, pc), triangle_shape(pb, pa, pd));
   const double shape_after = std::min({triangle_shape(pa, p, pc), triangle_shape(p, pb, pc),
                                        triangle_shape(pb, p, pd), triangle_shape(p, pa, pd)});
-  if (shape_after < std::min(kFairShape, 0.5 * shape_before)) return false;
+  if (shape_after < std::max(kFlat, std::min(kFairShape, 0.5 * shape_before))) return false;
   const double before = std::min(alignment(a, b, c), alignment(b, a, d));
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
   set_vertex(x, p, patch_.normals[a] + patch_.normals[b]);

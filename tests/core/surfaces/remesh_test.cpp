@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shapes.h"
+#include "surfaces/remesh_patch.h"
 
 using namespace dm;
 using shapes::Shape;
@@ -296,5 +297,27 @@ TEST_CASE("a surface that crosses itself over and over is refused, with a face's
   } catch (const Failure& failure) {
     CHECK(failure.code == "self_intersection");
     CHECK(failure.entity.dimension == 2);
+  }
+}
+
+TEST_CASE("an edge of a triangle without any width is not divided: its middle would lie on the outline") {
+  const Shape box = shapes::box(30, 20, 10);
+  const Geometry geometry(box.plc, box.records);
+  Context context;
+  const SizeField size(box.plc, geometry, Run::size_options(1), context);
+  const LengthField lengths(size, 0.85);
+  Index bottom = 0;
+  while (geometry.project_to_face(bottom, {1, 1, 0}).z != 0 || geometry.normal(bottom, {1, 1, 0}).z == 0)
+    ++bottom;
+  for (const double width : {0.0, 1.0}) {
+    FacePatch patch;
+    for (const Vec3& p : {Vec3{2, 2, 0}, Vec3{3, 2 - width, 0}, Vec3{5, 2, 0}, Vec3{3, 4, 0}})
+      patch.add_vertex(p, VertexKind::fixed, -1);
+    patch.start({0, 1, 2, 0, 2, 3}, {-1, 5, -1, -1, -1, 1});
+    REQUIRE_NOTHROW(patch.check());
+    const Index across = patch.find_edge(0, 2);
+    REQUIRE(patch.twin[across] >= 0);
+    PatchRemesher remesher(patch, bottom, geometry, lengths, {}, 1, {});
+    CHECK(remesher.split_at_middle(across) == (width > 0));
   }
 }
