@@ -1,6 +1,5 @@
 #include "boundary/winding.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "base/tet_geometry.h"

@@ -5,8 +5,6 @@
 namespace dm {
 namespace {
 
-constexpr double kNormalTurn = 0.9;  // cosine of the largest angle between old and new normals
-
 bool share_edge(EditMesh& mesh, Index a, Index b) {
   for (Index t : mesh.star(a))
     for (Index v : mesh.tet(t))
@@ -75,7 +73,7 @@ bool Flipper::keeps_surface(const Ring& ring, const Geometry& geometry, std::arr
   turned = {Triangle{a, c, d}, Triangle{b, d, c}};
   if (dot(area(turned[0]), before) < 0) turned = {Triangle{a, d, c}, Triangle{b, c, d}};
   for (const Triangle& t : turned) {
-    if (dot(normalized(area(t)), normalized(before)) < kNormalTurn) return false;
+    if (!turns_little(before, area(t))) return false;
     // share_edge() does not see the parts that touch at a pinched point.
     if (mesh_.find_triangle(t[0], t[1], t[2]) >= 0) return false;
   }

@@ -5,7 +5,6 @@
 namespace dm {
 namespace {
 
-constexpr double kNormalTurn = 0.9;  // cosine of the largest angle between old and new normals
 constexpr Triangle kNothing{-1, -1, -1};
 
 bool contains(const Tet& t, Index v) { return t[0] == v || t[1] == v || t[2] == v || t[3] == v; }
@@ -86,12 +85,12 @@ bool Contractor::shares_other_neighbours(Index from, Index to) {
 // The turned triangles beside the old ones of their CAD face.
 bool Contractor::keeps_surface(Index from, Index to) {
   const auto normal = [&](const Triangle& t) {
-    return normalized(area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2])));
+    return area_vector(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]));
   };
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     if (turned_[i] == kNothing) continue;
     if (mesh_.find_triangle(turned_[i][0], turned_[i][1], turned_[i][2]) >= 0) return false;
-    if (dot(normal(mesh_.triangle(triangles_[i])), normal(turned_[i])) < kNormalTurn) return false;
+    if (!turns_little(normal(mesh_.triangle(triangles_[i])), normal(turned_[i]))) return false;
   }
   const auto faces = mesh_.faces_of(from);
   return std::all_of(faces.begin(), faces.end(), [&](Index face) { return stays_close(face, from, to); });

@@ -7,8 +7,7 @@ namespace {
 
 constexpr std::size_t kLargest = 30;  // tetrahedra of a cavity: their cone has fewer than kMaxReplace
 constexpr double kSharpest = 0.99985, kBluntest = -0.9994;  // cosines of 1 and 178 degrees
-constexpr int kSteps = 6;            // along the gradient, before the cavity is grown again
-constexpr double kNormalTurn = 0.9;  // cosine of the largest angle between old and new normals
+constexpr int kSteps = 6;  // along the gradient, before the cavity is grown again
 
 bool contains(const Tet& t, Index v) { return t[0] == v || t[1] == v || t[2] == v || t[3] == v; }
 bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
@@ -152,12 +151,11 @@ bool Inserter::keeps_surface(Index face) const {
     before += normalized(area_vector(mesh_.point(a), mesh_.point(b), mesh_.point(c)));
     for (const Segment& edge : {Segment{a, b}, Segment{b, c}, Segment{c, a}}) old_edges.push_back(edge);
   }
-  before = normalized(before);
   std::vector<Vec3> middles;
   for (std::size_t i = 0; i < rims_.size(); ++i) {
     if (rim_face_[i] != face) continue;
     const Vec3 &p = mesh_.point(rims_[i][0]), &q = mesh_.point(rims_[i][1]);
-    if (dot(normalized(area_vector(p, q, place_)), before) < kNormalTurn) return false;
+    if (!turns_little(before, area_vector(p, q, place_))) return false;
     for (const Vec3& end : {p, q}) {
       const Vec3 middle = 0.5 * (end + place_);
       if (!has(middles, middle)) middles.push_back(middle);

@@ -12,6 +12,9 @@
 
 namespace dm {
 
+// For each triangle: a surface with more crossings lies over itself or another one.
+constexpr std::size_t kMostCrossings = 16;
+
 // Pairs (i < j, sorted) of triangles whose interiors cross properly, or overlap in a common plane.  Triangles
 // that share an edge or merely touch do not count.  The search ends when it has found `most`: a surface that
 // crosses itself everywhere has a quadratic number of them.

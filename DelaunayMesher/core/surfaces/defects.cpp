@@ -15,15 +15,14 @@
 namespace dm {
 namespace {
 
-constexpr double kSmallAngle = 0.94;        // cosine of 20 degrees
-constexpr double kShortSegment = 0.5;       // over the wanted length
-constexpr double kStripLength = 1.5;        // wanted length over the strip's width
-constexpr double kFloor = 1.0 / 8;          // of the length the size field wants
-constexpr double kTip = 12;                 // shortest length over the width: too narrow there for any gain
-constexpr double kWedge = 3;                // distance from the meeting point over the width: 20 degrees
-constexpr double kSharp = 0.5;              // solid angle: the end of a wedge of 20 degrees has 0.35 to 0.7
-constexpr std::size_t kMostCrossings = 16;  // for each triangle
-constexpr double kNoGain = 0.85;  // a cap no shorter than this, over the present length, is not worth it
+constexpr double kSmallAngle = 0.94;   // cosine of 20 degrees
+constexpr double kShortSegment = 0.5;  // over the wanted length
+constexpr double kStripLength = 1.5;   // wanted length over the strip's width
+constexpr double kFloor = 1.0 / 8;     // of the length the size field wants
+constexpr double kTip = 12;            // shortest length over the width: too narrow there for any gain
+constexpr double kWedge = 3;           // distance from the meeting point over the width: 20 degrees
+constexpr double kSharp = 0.5;         // solid angle: the end of a wedge of 20 degrees has 0.35 to 0.7
+constexpr double kNoGain = 0.85;       // a cap no shorter than this, over the present length, is not worth it
 
 class NarrowPlaces {
  public:
