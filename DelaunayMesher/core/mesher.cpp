@@ -79,6 +79,14 @@ std::string absorbed_warning(const Absorbed& absorbed) {
          names(absorbed.faces, absorbed.edges) + "; a size given to them, or a minimum size, keeps them";
 }
 
+std::string left_out_warning(const std::vector<Vec3>& places) {
+  const Vec3& p = places[0];
+  char place[100];
+  std::snprintf(place, sizeof place, "near (%.6g, %.6g, %.6g)", p.x, p.y, p.z);
+  return std::to_string(places.size()) + " elements without volume were left out where solids touch, " +
+         place + "; if the solids are to be joined there, cut the part with Boolean Fragments";
+}
+
 void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
   if (recovery.replaced)
     result.warnings.push_back(
@@ -123,7 +131,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   RefineReport refinement;
   mark_acute_segments(labelled, kAcuteAngle);
   refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
-  result.statistics.emplace_back("flat_tetrahedra_left_out", carve_flat_tets(labelled));
+  const Index carved = carve_flat_tets(labelled);
   return_freed_memory();
   result.mesh = extract_volume_mesh(std::move(labelled), options.optimise);
   return_freed_memory();
@@ -135,6 +143,9 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
     optimise(result.mesh, geometry, size, {}, context);
     clock.stop("optimisation");
   }
+  const std::vector<Vec3> left_out = leave_out_flat_tets(result.mesh);
+  result.statistics.emplace_back("flat_tetrahedra_left_out", carved + left_out.size());
+  if (!left_out.empty()) result.warnings.push_back(left_out_warning(left_out));
   if (options.order == 2) {
     result.second_order = make_second_order(result.mesh, geometry, context);
     clock.stop("order");

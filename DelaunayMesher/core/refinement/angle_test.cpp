@@ -25,14 +25,13 @@ double tet_sharpness(const LabelledTriangulation& mesh, Index tet) {
   return sharpness(p[a], p[b], p[c], p[d], exempt_angles(mesh.boundary, a, b, c, d));
 }
 
-bool is_flat(const Triangulation& tets, Index t) {
+bool is_flat(const std::vector<Vec3>& points, const Tet& v) {
   constexpr double kFlatVolume = 1e-7;
-  const Tet& v = tets.corners(t);
   double longest2 = 0;
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < i; ++j) longest2 = std::max(longest2, norm2(tets.point(v[i]) - tets.point(v[j])));
-  const Vec3 a = tets.point(v[0]);
-  const double volume6 = dot(area_vector(a, tets.point(v[1]), tets.point(v[2])), tets.point(v[3]) - a);
+    for (int j = 0; j < i; ++j) longest2 = std::max(longest2, norm2(points[v[i]] - points[v[j]]));
+  const Vec3 a = points[v[0]];
+  const double volume6 = dot(area_vector(a, points[v[1]], points[v[2]]), points[v[3]] - a);
   return volume6 <= kFlatVolume * longest2 * std::sqrt(longest2);
 }
 

@@ -37,7 +37,10 @@ double tet_sharpness(const LabelledTriangulation& mesh, Index tet);
 
 // Is the tetrahedron as flat as CAD's points in a plane are: six times its volume below 1e-7 of its longest
 // edge cubed?
-bool is_flat(const Triangulation& tets, Index tet);
+bool is_flat(const std::vector<Vec3>& points, const Tet& tet);
+inline bool is_flat(const Triangulation& tets, Index tet) {
+  return is_flat(tets.points(), tets.corners(tet));
+}
 
 // Circumradius bound of the refinement: rho(x)^2.
 struct RadiusBound {

@@ -66,4 +66,32 @@ Index carve_flat_tets(LabelledTriangulation& mesh) {
   return carved;
 }
 
+std::vector<Vec3> leave_out_flat_tets(VolumeMesh& mesh) {
+  std::vector<std::size_t> flat;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    if (is_flat(mesh.points, mesh.tets[t])) flat.push_back(t);
+  if (flat.empty()) return {};
+  std::vector<Index> uses(mesh.points.size(), 0);  // tetrahedra at each point
+  for (const Tet& v : mesh.tets)
+    for (const Index p : v) ++uses[p];
+  std::vector<Vec3> places;
+  for (const std::size_t t : flat) {
+    const auto [a, b, c, d] = mesh.tets[t];
+    if (std::min({uses[a], uses[b], uses[c], uses[d]}) < 2) continue;
+    for (const Index p : {a, b, c, d}) --uses[p];
+    places.push_back(0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]));
+    mesh.tet_solid[t] = 0;
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (mesh.tet_solid[t] == 0) continue;
+    mesh.tets[kept] = mesh.tets[t];
+    mesh.tet_solid[kept++] = mesh.tet_solid[t];
+  }
+  mesh.tets.resize(kept);
+  mesh.tet_solid.resize(kept);
+  mesh.neighbours.clear();
+  return places;
+}
+
 }  // namespace dm
