@@ -83,8 +83,8 @@ std::string left_out_warning(const std::vector<Vec3>& places) {
   const Vec3& p = places[0];
   char place[100];
   std::snprintf(place, sizeof place, "near (%.6g, %.6g, %.6g)", p.x, p.y, p.z);
-  return std::to_string(places.size()) + " elements without volume were left out where solids touch, " +
-         place + "; if the solids are to be joined there, cut the part with Boolean Fragments";
+  return std::to_string(places.size()) + " elements without volume were left out where faces touch, " +
+         place + "; if solids are to be joined there, cut the part with Boolean Fragments";
 }
 
 void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {

@@ -15,9 +15,9 @@ namespace dm {
 // Returns the number of tetrahedra left out.  Segments that are no edge of the mesh any more are dropped.
 Index carve_flat_tets(LabelledTriangulation& mesh);
 
-// The flat ones that are left, between solids that touch where no CAD face separates them, so that the other
-// tetrahedra cannot meet in their place.  The boundary triangles stay, as do the last tetrahedra of a point.
-// Neighbours are not kept.  Returns the places of what was left out.
+// The flat ones that are left, most of them between solids that touch where no CAD face separates them, so
+// that the other tetrahedra cannot meet in their place.  The boundary triangles stay, as do the last
+// tetrahedra of a point. Neighbours are not kept.  Returns the places of what was left out.
 std::vector<Vec3> leave_out_flat_tets(VolumeMesh& mesh);
 
 }  // namespace dm

@@ -113,7 +113,16 @@ void PatchRemesher::remove_dropped(double aligned) {
 
 // ---- short edges
 
+// Facets are not, nor is a face with a place where no normal is known, such as a cone with its apex.
+bool PatchRemesher::is_smooth() const {
+  if (geometry_.is_facets(face_)) return false;
+  for (Index v = 0; v < patch_.vertex_count(); ++v)
+    if (patch_.corner_of(v) >= 0 && norm2(patch_.normals[v]) == 0) return false;
+  return true;
+}
+
 void PatchRemesher::collapse_short(double ratio) {
+  const bool smooth = is_smooth();
   for (int round = 0; round < 30; ++round) {
     Index removed = 0;
     for (Index v = 0; v < patch_.vertex_count(); ++v) {
@@ -130,7 +139,7 @@ void PatchRemesher::collapse_short(double ratio) {
       });
       if (e < 0 || !patch_.can_collapse(e, v)) continue;
       if (collapse_quality(e, v, kLongest, kAligned) < 0 &&
-          (geometry_.is_facets(face_) || collapse_quality(e, v, kLongestFlat, kFlat) < 0))
+          (!smooth || collapse_quality(e, v, kLongestFlat, kFlat) < 0))
         continue;
       const Index keep = patch_.target(e);
       patch_.collapse(e, v);

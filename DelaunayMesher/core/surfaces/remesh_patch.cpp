@@ -19,7 +19,8 @@ constexpr double kDegenerate = 1e-10;  // area over the square of the longest ed
 constexpr double kBend = 0.5;          // cosine of what an edge may turn: 60 degrees
 constexpr int kBendRounds = 6;         // each halves what bends too far
 constexpr double kStraight = 1e-6;     // radians
-constexpr double kFlipMargin = 1e-6;   // keeps rounding from flipping back and forth
+constexpr double kHalfway = 0.7;  // of what normals turn (1 - cosine), from the middle of an arc to its ends
+constexpr double kFlipMargin = 1e-6;  // keeps rounding from flipping back and forth
 
 double longest2(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
@@ -195,7 +196,8 @@ bool PatchRemesher::split_arc(Index a, Index b) {
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
   set_vertex(x, p, na + nb);
   const Vec3& n = patch_.normals[x];
-  if (!(std::min(dot(n, na), dot(n, nb)) > dot(na, nb))) {  // at an apex the normals mislead
+  const double turn = 1 - dot(na, nb);
+  if (!(std::min(dot(n, na), dot(n, nb)) > 1 - kHalfway * turn)) {  // at an apex the normals mislead
     patch_.pop_vertex();
     return false;
   }

@@ -86,6 +86,7 @@ class PatchRemesher {
 
   bool remove_boundary_vertex(Index v, double aligned);
   bool flip_towards_ear(Index v, double aligned);
+  bool is_smooth() const;
   // Worst new triangle, < 0: not allowed.
   double collapse_quality(Index e, Index gone, double max_ratio, double aligned) const;
 
