@@ -173,16 +173,17 @@ Vec3 PatchRemesher::rise(Index a, Index b) const {
   return rise_of_arc(points()[b] - points()[a], patch_.normals[a], patch_.normals[b]);
 }
 
-// The edge of t whose arc rises highest; -1 if none does.
+// The edge of t, longer than wanted, whose arc rises highest; -1 if none does.
 Index PatchRemesher::highest_edge(Index t) const {
   Index highest = -1;
   double most2 = 0;
-  for (Index e = 3 * t; e < 3 * t + 3; ++e)
-    if (const double r2 = norm2(rise(patch_.origin(e), patch_.target(e)));
-        r2 > most2 && edge_ratio(patch_.origin(e), patch_.target(e)) > 1) {
-      most2 = r2;
-      highest = e;
-    }
+  for (Index e = 3 * t; e < 3 * t + 3; ++e) {
+    const Index a = patch_.origin(e), b = patch_.target(e);
+    const double r2 = norm2(rise(a, b));
+    if (r2 <= most2 || edge_ratio(a, b) <= 1) continue;
+    most2 = r2;
+    highest = e;
+  }
   return highest;
 }
 
@@ -216,6 +217,7 @@ void PatchRemesher::insert_samples() {
     const double length2 = norm2(points()[patch_.target(e)] - points()[part.origin]);
     longest.emplace(length2, part.origin, part.first, part.last);
   };
+  // Not before the bends are split: across one the normals at both ends would look doubtful.
   if (!planar_) drop_doubtful_normals();
   for (const Pending& part : patch_.pending) push(part);
   patch_.pending.clear();

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "base/tet_geometry.h"
-
 using namespace dm;
 
 namespace {
