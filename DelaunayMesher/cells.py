@@ -81,7 +81,7 @@ def find_cells(points, triangles, holes=None, nested="cavity"):
     """
     sides = half_edges(triangles)
     shell = _shells(points, triangles, sides)
-    component = _components(triangles, sides)
+    component = pieces(triangles, sides)
     volumes = _shell_volumes(points, triangles, shell)
     limit = FLAT * float(np.linalg.norm(np.ptp(points[np.unique(triangles)], axis=0))) ** 3
     for flat in np.flatnonzero(np.abs(volumes) <= limit):
@@ -141,8 +141,9 @@ def _refuse_overlap(points, edges, angle, starts, sizes):
         raise MeshError("plc", "overlap", "triangles of the surface overlap at an edge", place)
 
 
-def _components(triangles, sides):
+def pieces(triangles, sides=None):
     """(m,) number of the piece of surface, connected across edges, that each triangle belongs to."""
+    sides = sides or half_edges(triangles)
     first = np.repeat(sides.owner[sides.starts], sides.sizes)
     return connected(first, sides.owner, len(triangles))[1]
 
@@ -201,10 +202,15 @@ def _containing(points, triangles, shell, volumes, outer, component_of, hole, re
 
 
 def _winding(points, triangles, shell, number, place):
-    """Winding number of a shell round a place off it (van Oosterom and Strackee 1983)."""
+    """Winding number of a shell round a place off it."""
     sides = np.flatnonzero(shell == number)
     mine = triangles[sides // 2]
-    corners = points[mine]
+    return winding(points[np.where((sides % 2 == BACK)[:, None], mine, mine[:, ::-1])], place)
+
+
+def winding(corners, place):
+    """How often a closed surface with some corners (m, 3, 3) winds round a place off it: 1 inside, when the
+    triangles point outwards (van Oosterom and Strackee 1983)."""
     if (place < corners.min(axis=(0, 1))).any() or (place > corners.max(axis=(0, 1))).any():
         return 0.0
     a, b, c = (corners[:, i] - place for i in range(3))
@@ -216,8 +222,7 @@ def _winding(points, triangles, shell, number, place):
         + np.einsum("ij,ij->i", b, c) * la
         + np.einsum("ij,ij->i", c, a) * lb
     )
-    sign = np.where(sides % 2 == BACK, 1.0, -1.0)
-    return float((sign * np.arctan2(above, below)).sum() / (2 * np.pi))
+    return float(np.arctan2(above, below).sum() / (2 * np.pi))
 
 
 def _number_solids(points, triangles, shell, volumes, region_of, depth, holes, nested):

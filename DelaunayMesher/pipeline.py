@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from . import extension, joining, sizing
+from . import extension, joining, sizing, surface_plcs
 from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
 from .errors import InputError, MeshCancelled, MeshError, entity_name
 from .options import make_options
@@ -140,11 +140,9 @@ def to_plcs(source, options, keep=()):
         source.check()
         return [source], None, None
     if isinstance(source, Surface):
-        points, triangles, labels, holes, nested = source
-        plc = Plc.from_triangles(points, triangles, labels, holes=holes, nested=nested)
-        return [plc], None, None
+        return surface_plcs.to_plcs(*source), None, None
     if isinstance(source, (tuple, list)) and len(source) == 2:
-        return [Plc.from_triangles(np.asarray(source[0]), np.asarray(source[1]))], None, None
+        return surface_plcs.to_plcs(*source), None, None
     if hasattr(source, "Shape"):
         source = source.Shape
     if not hasattr(source, "Faces"):

@@ -126,6 +126,15 @@ class Plc:
         the place of an open edge, an overlap, an empty or flat surface.
         """
         points, triangles, labels, warnings = cleaning.clean(points, triangles, labels)
+        plc = cls.from_clean_triangles(points, triangles, labels, crease_angle, holes, nested)
+        plc.warnings[:0] = warnings
+        return plc
+
+    @classmethod
+    def from_clean_triangles(
+        cls, points, triangles, labels, crease_angle=CREASE_ANGLE, holes=None, nested="cavity"
+    ):
+        """from_triangles() of what cleaning.clean() returns."""
         front_back = cells.find_cells(points, triangles, holes=holes, nested=nested)
         keep = front_back.any(axis=1)
         triangles, labels, front_back = triangles[keep], labels[keep], front_back[keep]
@@ -149,7 +158,6 @@ class Plc:
             found.edge_count,
             len(corners),
             int(front_back.max(initial=0)),
-            warnings=warnings,
         )
 
 

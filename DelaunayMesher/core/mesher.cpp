@@ -61,7 +61,8 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
 }
 
 // "Face3, Face7, Edge2 and 5 more"
-std::string names(const std::vector<Index>& faces, const std::vector<Index>& edges = {}) {
+std::string names(const std::vector<Index>& faces, const std::vector<Index>& edges = {},
+                  const std::vector<Index>& vertices = {}) {
   std::string text;
   std::size_t named = 0;
   const auto add = [&](const char* name, const std::vector<Index>& elements) {
@@ -70,13 +71,15 @@ std::string names(const std::vector<Index>& faces, const std::vector<Index>& edg
   };
   add("Face", faces);
   add("Edge", edges);
+  add("Vertex", vertices);
   if (named > kNamedElements) text += " and " + std::to_string(named - kNamedElements) + " more";
   return text;
 }
 
 std::string absorbed_warning(const Absorbed& absorbed) {
   return "far smaller than the elements, and taken together with what lies beside them: " +
-         names(absorbed.faces, absorbed.edges) + "; a size given to them, or a minimum size, keeps them";
+         names(absorbed.faces, absorbed.edges, absorbed.vertices) +
+         "; a size given to them, or a minimum size, keeps them";
 }
 
 std::string left_out_warning(const std::vector<Vec3>& places) {

@@ -7,8 +7,10 @@ edges and vertices as the whole shape does.
 
 import numpy as np
 import Part
+from FreeCAD import Vector
 
 from ..errors import entity_name
+from ..overlaps import find_overlaps
 from ..plc import Plc
 from .edge_geometry import edge_records
 from .face_geometry import SPHERE, TORUS, face_records, seam_is_smooth
@@ -19,9 +21,11 @@ from .touching import (
     merge_coincident_segments,
     merge_equal_faces,
     segments_on_triangles,
+    solid_pairs,
 )
 
 NAMED = 5  # elements named in a message
+DEPTH = 1e-3  # of the diagonal: what solids that merely touch may lie in each other
 
 
 class ShapePlc:
@@ -43,9 +47,9 @@ class ShapePlc:
         if loose.any():
             names = face_names(mesh.triangle_face[loose])
             warnings.append("faces that belong to no solid are left out: %s" % names)
-        touching = self.contacts.pairs()
-        if len(groups) > 1 and touching:
-            warnings.append(apart_warning(touching))
+        if len(groups) > 1:
+            touching = self.contacts.pairs()
+            warnings += apart_warnings(touching, overlapping_solids(mesh, sides, groups, touching))
         self.plcs[0].warnings[:0] = warnings
 
     @property
@@ -112,8 +116,15 @@ class ShapePlc:
             solid_numbers=np.array(solids),
             cad_solid_count=len(cad.solids),
             kept_faces=[number for number in self.kept["Face"] if number < len(cad.faces)],
-            kept_edges=[number for number in self.kept["Edge"] if number < len(cad.edges)],
+            kept_edges=[number for number in self.kept_edges() if number < len(cad.edges)],
         )
+
+    def kept_edges(self):
+        """Numbers of the edges that stay: with a vertex that does so all that meet there."""
+        mesh = self.mesh
+        vertices = [number for number in self.kept["Vertex"] if number < len(mesh.vertex_point)]
+        ends = np.isin(mesh.segments, mesh.vertex_point[vertices]).any(axis=1)
+        return sorted({*self.kept["Edge"], *mesh.segment_edge[ends].tolist()})
 
     def segments_of(self, triangles, used, aliases):
         """(segments (k, 2), their edges) along triangles, whose points are `used`; see Aliases.edges."""
@@ -173,15 +184,55 @@ def numbers_of(names, kind):
     return sorted({int(ending) - 1 for ending in endings if ending.isdecimal() and int(ending) > 0})
 
 
-def apart_warning(touching):
-    """What to know about solids that touch and are meshed apart; touching: pairs of faces."""
-    pairs = ["%s and %s" % (entity_name(2, a), entity_name(2, b)) for a, b in touching[:NAMED]]
-    more = "" if len(touching) <= NAMED else ", ... (%d pairs in all)" % len(touching)
-    return (
-        "faces of different solids touch or cross without being one face, so the meshes of these solids do "
-        "not fit together there: %s%s. For a mesh that does, cut the part with Boolean Fragments (mode "
-        "CompSolid)" % (", ".join(pairs), more)
+def overlapping_solids(mesh, sides, groups, touching):
+    """[(solid, other solid), ...] (1-based) of different groups that lie in each other though no faces of
+    theirs touch."""
+    solids = np.array([solid for group in groups for solid in group])
+    group = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
+    known = group[:, None] == group
+    place = np.zeros(len(mesh.cad.solids) + 1, dtype=np.int64)
+    place[solids] = np.arange(len(solids))
+    for first, second in touching:
+        for a, b in solid_pairs(sides, first, second):
+            known[place[a], place[b]] = known[place[b], place[a]] = True
+    bodies = [mesh.points[outward_triangles(mesh, sides, solid)] for solid in solids.tolist()]
+    return sorted(
+        {
+            tuple(sorted(solids[[inner, outer]].tolist()))
+            for inner, outer, place, _ in find_overlaps(bodies, known)
+            if mesh.cad.solids[solids[outer] - 1].isInside(Vector(*place), DEPTH * mesh.cad.diagonal, False)
+        }
     )
+
+
+def outward_triangles(mesh, sides, solid):
+    """(k, 3) triangles of a solid, pointing out of it."""
+    behind, front = (sides[mesh.triangle_face] == solid).T
+    return np.concatenate([mesh.triangles[behind], mesh.triangles[front][:, ::-1]])
+
+
+def apart_warnings(touching, overlapping):
+    """What to know about solids that are meshed apart: pairs of faces that touch, and of solids that lie in
+    each other."""
+    advice = "For a mesh that does, cut the part with Boolean Fragments (mode CompSolid)"
+    warnings = []
+    if overlapping:
+        warnings.append(
+            "solids lie in each other, and so do their meshes, which do not fit together: %s. %s"
+            % (pairs_of_names(3, overlapping), advice)
+        )
+    if touching:
+        warnings.append(
+            "faces of different solids touch or cross without being one face, so the meshes of these solids "
+            "do not fit together there: %s. %s" % (pairs_of_names(2, touching), advice)
+        )
+    return warnings
+
+
+def pairs_of_names(dimension, pairs):
+    """'Face1 and Face7, Face2 and Face3, ... (9 pairs in all)' for a message."""
+    names = ["%s and %s" % (entity_name(dimension, a), entity_name(dimension, b)) for a, b in pairs[:NAMED]]
+    return ", ".join(names) + ("" if len(pairs) <= NAMED else ", ... (%d pairs in all)" % len(pairs))
 
 
 def position_tolerance(face):

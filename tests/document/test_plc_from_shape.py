@@ -300,6 +300,30 @@ def test_solids_that_touch_partly_are_named(turn):
     assert "Boolean Fragments" in converted.plc.warnings[0]
 
 
+@pytest.mark.parametrize(
+    "other, warned",
+    [
+        (Part.makeBox(10, 10, 10, Vector(5, 5, 5)), True),  # passes only through edges of the triangles
+        (Part.makeBox(4, 4, 4, Vector(3, 3, 3)), True),  # inside
+        (Part.makeSphere(3, Vector(5, 5, 5)), True),
+        (Part.makeBox(10, 10, 10, Vector(9.999, 2, 2)), False),  # no deeper than solids that touch may be
+        (Part.makeBox(10, 10, 10, Vector(10.5, 2, 2)), False),
+    ],
+)
+def test_solids_that_lie_in_each_other_are_named(other, warned):
+    warnings = convert(Part.makeCompound([Part.makeBox(10, 10, 10), other])).plc.warnings
+    assert (
+        any("solids lie in each other" in text and "Solid1 and Solid2" in text for text in warnings) == warned
+    )
+
+
+def test_edges_at_a_vertex_that_a_load_refers_to_stay():
+    box = Part.makeBox(10, 10, 10)
+    edges = {number for number, edge in enumerate(box.Edges) if edge.Vertexes[0].isSame(box.Vertexes[2])}
+    edges |= {number for number, edge in enumerate(box.Edges) if edge.Vertexes[-1].isSame(box.Vertexes[2])}
+    assert set(convert(box, keep=("Vertex3",)).plc.kept_edges.tolist()) == edges and len(edges) == 3
+
+
 def test_solids_with_a_common_edge_stay_together():
     first, second = Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(10, 10, 0))
     fragments = first.generalFuse([second])[0]

@@ -29,8 +29,13 @@ struct Image {
 class LayerMatcher {
  public:
   LayerMatcher(SurfaceMesh& mesh, const Plc& plc, const Geometry& geometry, const SizeField& size,
-               std::vector<char>& fixed)
-      : mesh_(mesh), geometry_(geometry), size_(size), complex_(mesh, plc.face_solids), fixed_(fixed) {
+               std::vector<char>& fixed, Context& context)
+      : mesh_(mesh),
+        geometry_(geometry),
+        size_(size),
+        complex_(mesh, plc.face_solids),
+        fixed_(fixed),
+        context_(context) {
     fixed_.resize(mesh.points.size(), 0);
   }
 
@@ -69,6 +74,7 @@ class LayerMatcher {
       const auto [a, b, c] = mesh_.triangles[t];
       const Sphere ball = circumcircle(at(a), at(b), at(c));
       const double radius = std::min(std::sqrt(ball.radius2), edge_size(ball.centre));
+      context_.poll(0);
       for (const Index v : {a, b, c}) find_images_of_point(v, radius, images);
       visit_near(ball.centre, radius, [&](Index other) {
         for (const Index v : mesh_.triangles[other]) {
@@ -320,13 +326,14 @@ class LayerMatcher {
   std::vector<char> done_;                          // of an image
   std::vector<std::size_t> waiting_;                // images whose points were fixed
   Index changes_ = 0;
+  Context& context_;
 };
 
 }  // namespace
 
 Index match_layers(SurfaceMesh& mesh, const Plc& plc, const Geometry& geometry, const SizeField& size,
-                   const std::vector<Index>& missing, std::vector<char>& fixed) {
-  return LayerMatcher(mesh, plc, geometry, size, fixed).run(missing);
+                   const std::vector<Index>& missing, std::vector<char>& fixed, Context& context) {
+  return LayerMatcher(mesh, plc, geometry, size, fixed, context).run(missing);
 }
 
 }  // namespace dm

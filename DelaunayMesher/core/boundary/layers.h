@@ -12,6 +12,7 @@
 // each other's way, and what is then missing is left to recovery.
 #pragma once
 
+#include "base/context.h"
 #include "boundary/complex.h"
 #include "sizing/size_field.h"
 
@@ -21,6 +22,6 @@ namespace dm {
 // corner of them, is matched.  fixed: which points face another and stay; kept from call to call, empty at
 // first. Returns the number of points that were moved or made.
 Index match_layers(SurfaceMesh& mesh, const Plc& plc, const Geometry& geometry, const SizeField& size,
-                   const std::vector<Index>& missing, std::vector<char>& fixed);
+                   const std::vector<Index>& missing, std::vector<char>& fixed, Context& context);
 
 }  // namespace dm

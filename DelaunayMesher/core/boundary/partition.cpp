@@ -13,7 +13,8 @@ constexpr std::uint16_t kUnknown = 0xffff;
 
 class Partition {
  public:
-  explicit Partition(LabelledTriangulation& mesh) : mesh_(mesh), tets_(mesh.tets), complex_(mesh.boundary) {}
+  Partition(LabelledTriangulation& mesh, Context& context)
+      : mesh_(mesh), tets_(mesh.tets), complex_(mesh.boundary), context_(context) {}
 
   Replaced run(const std::vector<Index>& missing) {
     collect_faces_at_points();
@@ -103,6 +104,7 @@ class Partition {
     std::vector<Index> room;
     for (Index t = 0; t < tets_.slot_count(); ++t) {
       if (tets_.is_free(t) || tets_.tag(t) != kUnknown) continue;
+      context_.poll(1);
       Index solid = find_room(t, room);
       if (solid < 0) solid = solid_round(largest(room));
       for (const Index tet : room)
@@ -277,6 +279,7 @@ class Partition {
   LabelledTriangulation& mesh_;
   Triangulation& tets_;
   BoundaryComplex& complex_;
+  Context& context_;
   std::vector<std::vector<Index>> faces_at_;
   std::map<Index, std::array<Index, 2>> solids_of_;
   std::vector<std::pair<Index, WindingNumber>> windings_;  // of solids
@@ -286,8 +289,8 @@ class Partition {
 
 }  // namespace
 
-Replaced partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing) {
-  return Partition(mesh).run(missing);
+Replaced partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing, Context& context) {
+  return Partition(mesh, context).run(missing);
 }
 
 }  // namespace dm

@@ -23,6 +23,6 @@ struct Replaced {
 };
 
 // Throws Failure("boundary", "leak") when no CAD face has the two solids that meet.
-Replaced partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing);
+Replaced partition_solids(LabelledTriangulation& mesh, const std::vector<Index>& missing, Context& context);
 
 }  // namespace dm

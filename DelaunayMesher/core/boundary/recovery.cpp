@@ -7,7 +7,7 @@
 #include "boundary/partition.h"
 #include "boundary/recover_triangles.h"
 #include "boundary/weld.h"
-#include "surfaces/defects.h"
+#include "surfaces/repeated_points.h"
 
 namespace dm {
 
@@ -77,7 +77,7 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
   std::vector<char> fixed;
   for (int round = 0; round < kLayerRounds && !missing.empty(); ++round) {
     SurfaceMesh matching = surface;
-    const Index matched = match_layers(matching, plc, geometry, size, missing, fixed);
+    const Index matched = match_layers(matching, plc, geometry, size, missing, fixed, context);
     if (matched == 0 || has_repeated_points(matching)) break;
     surface = std::move(matching);
     report.layer_points += matched;
@@ -87,14 +87,14 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
   missing = recover_triangles(mesh, geometry, size, missing, true, context, report);
   report.unrecovered_faces = faces_of(mesh.boundary, missing);
   if (!missing.empty() || !tag_solids(mesh)) {
-    const Replaced replaced = partition_solids(mesh, missing);
+    const Replaced replaced = partition_solids(mesh, missing, context);
     report.replaced = replaced.triangles;
     SurfaceMesh welded;
     if (weld_points(mesh, plc, replaced.points, welded)) {
       mesh = triangulate(welded, plc, context);
       RecoveryReport again;
       missing = recover_triangles(mesh, geometry, size, label_faces(mesh), false, context, again);
-      partition_solids(mesh, missing);
+      partition_solids(mesh, missing, context);
     }
   }
   // Touching solids whose faces do not match: the caller can mesh them apart, unless shared faces connect

@@ -26,7 +26,7 @@ namespace dm {
 
 struct Absorbed {
   std::vector<Index> faces, edges, vertices;  // CAD elements that are gone, ascending
-  bool any() const { return !faces.empty() || !edges.empty(); }
+  bool any() const { return !faces.empty() || !edges.empty() || !vertices.empty(); }
 };
 
 // The tolerance is a fiftieth of the size given at the place, or min_size if that is given and smaller.

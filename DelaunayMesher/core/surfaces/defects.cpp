@@ -4,13 +4,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "base/tet_geometry.h"
 #include "surfaces/crossings.h"
 #include "surfaces/edge_paths.h"
+#include "surfaces/repeated_points.h"
 
 namespace dm {
 namespace {
@@ -18,7 +17,7 @@ namespace {
 constexpr double kSmallAngle = 0.94;   // cosine of 20 degrees
 constexpr double kShortSegment = 0.5;  // over the wanted length
 constexpr double kStripLength = 1.5;   // wanted length over the strip's width
-constexpr double kFloor = 1.0 / 8;     // of the length the size field wants
+constexpr double kFloor = 1.0 / 24;    // of the length the size field wants
 constexpr double kTip = 12;            // shortest length over the width: too narrow there for any gain
 constexpr double kWedge = 3;           // distance from the meeting point over the width: 20 degrees
 constexpr double kSharp = 0.5;         // solid angle: the end of a wedge of 20 degrees has 0.35 to 0.7
@@ -140,23 +139,13 @@ class NarrowPlaces {
   std::vector<char> sharp_;  // by point
 };
 
-// Points of a face may fall on the same place where it is folded sharply: the nearest place of the other
-// leaf.
 std::vector<Index> triangles_at_repeated_points(const SurfaceMesh& mesh) {
-  std::vector<Index> order(mesh.points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](Index v) {
-    const Vec3& p = mesh.points[v];
-    return std::tie(p.x, p.y, p.z);
-  };
-  std::sort(order.begin(), order.end(), [&](Index v, Index w) { return key(v) < key(w); });
+  const std::vector<Index> first = first_at_place(mesh);
   std::vector<char> repeated(mesh.points.size(), 0);
-  bool any = false;
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (mesh.points[order[k]] == mesh.points[order[k - 1]])
-      repeated[order[k]] = repeated[order[k - 1]] = 1, any = true;
+  for (std::size_t v = 0; v < first.size(); ++v)
+    if (first[v] != static_cast<Index>(v)) repeated[v] = repeated[first[v]] = 1;
   std::vector<Index> found;
-  for (std::size_t t = 0; any && t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& v = mesh.triangles[t];
     if (repeated[v[0]] || repeated[v[1]] || repeated[v[2]]) found.push_back(static_cast<Index>(t));
   }
@@ -185,8 +174,6 @@ std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthF
   }
   return found;
 }
-
-bool has_repeated_points(const SurfaceMesh& mesh) { return !triangles_at_repeated_points(mesh).empty(); }
 
 std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const Plc& plc, const LengthField& lengths) {
   return NarrowPlaces(mesh, plc, lengths).run();

@@ -21,9 +21,6 @@ struct Defect {
 // Cost: find_crossings.
 std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths);
 
-// Do two points of the mesh coincide?
-bool has_repeated_points(const SurfaceMesh& mesh);
-
 // Triangles with an angle under 20 degrees between curves closer together than the wanted length, or beside
 // a short CAD edge.  Not where the curves meet at such an angle in the tip of a wedge or needle of a solid
 // (its solid angle there is small), nor below an eighth of the length that the size field wants.

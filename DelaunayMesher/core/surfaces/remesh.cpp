@@ -10,6 +10,7 @@
 #include "surfaces/defects.h"
 #include "surfaces/extract_patch.h"
 #include "surfaces/remesh_patch.h"
+#include "surfaces/repeated_points.h"
 
 namespace dm {
 namespace {
@@ -63,8 +64,9 @@ class SurfaceMesher {
       SurfaceMesh mesh = assemble();
       if (round >= kLastRound && last == kLastRound && has_repeated_points(mesh))
         last = round + kRescueRounds;
-      if (round >= last) return mesh;
-      if (!demand_repairs(mesh)) return mesh;
+      if (round < last && demand_repairs(mesh)) continue;
+      join_repeated_points(mesh);
+      return mesh;
     }
   }
 

@@ -15,6 +15,7 @@ constexpr double kTip = 6;       // ... in a tip: 10 degrees
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
+constexpr double kBeside = 2;    // tolerances from a vertex of the other curve, which faces this one as well
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 constexpr int kBisections = 20;
@@ -37,9 +38,7 @@ class Finder {
   std::vector<SmallFeature> run() {
     collect_edges();
     tips_ = find_tips(plc_, geometry_, tolerance_);
-    std::erase_if(tips_, [&](const Tip& tip) {
-      return kept_edge_[tip.edge] || kept_edge_[tip.other_edge] || geometry_.is_facets(tip.face);
-    });
+    std::erase_if(tips_, [&](const Tip& tip) { return kept_edge_[tip.edge] || kept_edge_[tip.other_edge]; });
     const std::vector<Index> faces = faces_with_narrow_places();
     if (!faces.empty()) editor_.collect(faces);
     search(faces);
@@ -136,8 +135,9 @@ class Finder {
   // ---- tips
 
   // Divides the edge where the tip becomes as wide as a narrow part may be; its points before that face the
-  // other curve anyway.
-  void cut_tip(const Tip& tip) {
+  // other curve anyway.  False if it is nowhere as wide because the edge ends on the other one, as that of a
+  // lens does: then the other one may be divided.
+  bool cut_tip(const Tip& tip) {
     const double widest = kTipEnd * kPart * tolerance_(at(tip.point));
     Index a = tip.point, b = next_on(tip.edge, -1, a);
     while (b >= 0 && gap_at(tip, at(b)) < widest) {
@@ -145,15 +145,26 @@ class Finder {
       a = b;
       b = next;
     }
-    if (b < 0) return;
+    if (b < 0) return !editor_.is_on(a, tip.other_edge);
     double low = 0, high = 1;
     for (int step = 0; step < kBisections; ++step) {
       const double t = 0.5 * (low + high);
       (gap_at(tip, on_edge(tip, a, b, t)) < widest ? low : high) = t;
     }
     const Vec3 place = on_edge(tip, a, b, low);
-    if (std::min(distance(place, at(a)), distance(place, at(b))) < tolerance_(place)) return;
-    divide(segment(a, b), place, tip.face);
+    if (std::min(distance(place, at(a)), distance(place, at(b))) >= tolerance_(place) &&
+        !is_near_vertex(place, tip))
+      divide(segment(a, b), place, tip.face);
+    return true;
+  }
+
+  // Beside a vertex of the other curve, which faces this one as well.
+  bool is_near_vertex(const Vec3& place, const Tip& tip) const {
+    const double reach = kBeside * tolerance_(place);
+    for (const Index t : editor_.triangles_of(tip.face))
+      for (const Index p : plc_.triangles[t])
+        if (distance(at(p), place) < reach && is_vertex(p) && editor_.is_on(p, tip.other_edge)) return true;
+    return false;
   }
 
   Vec3 on_edge(const Tip& tip, Index a, Index b, double t) const {
@@ -219,7 +230,7 @@ class Finder {
     steps_ = kMostSteps * editor_.triangles_of(face).size() + 1000;
     for (const Tip& tip : tips_)
       if (tip.face == face) {
-        cut_tip(tip);
+        if (!cut_tip(tip)) cut_tip({tip.face, tip.point, tip.other_edge, tip.edge});
         drop_points(tip);
       }
     std::vector<Segment> open;
@@ -343,11 +354,10 @@ class Finder {
         if (!feature.empty()) found_.push_back(std::move(feature));
         continue;
       }
-      // One side across closes no strip: it would only move the tip of a wedge.
+      // Unless nothing is left, one side across closes no strip: it would only move the tip of a wedge.
       const bool edge = feature.size() == 1 && segment(feature[0].first, feature[0].second) >= 0;
-      if (edge ||
-          (feature.size() > 1 && (triangles == editor_.triangles_of(face).size() || is_narrow(feature))))
-        found_.push_back(std::move(feature));
+      const bool all = triangles == editor_.triangles_of(face).size();
+      if (edge || all || (feature.size() > 1 && is_narrow(feature))) found_.push_back(std::move(feature));
     }
   }
 

@@ -67,14 +67,24 @@ TEST_CASE("layers: matching keeps a valid surface and leaves matched sheets alon
   std::vector<Index> all(surface.triangles.size());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<Index>(t);
   std::vector<char> fixed;
-  CHECK(match_layers(surface, shape.plc, geometry, size, all, fixed) > 0);
+  CHECK(match_layers(surface, shape.plc, geometry, size, all, fixed, context) > 0);
   check_surface_mesh(surface, shape.plc, geometry);
   all.clear();
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) all.push_back(static_cast<Index>(t));
   const std::vector<Vec3> before = surface.points;
   fixed.clear();
-  match_layers(surface, shape.plc, geometry, size, all, fixed);
+  match_layers(surface, shape.plc, geometry, size, all, fixed, context);
   Index moved = 0;
   for (std::size_t v = 0; v < before.size(); ++v) moved += distance(before[v], surface.points[v]) > 1e-6;
   CHECK(moved * 20 < static_cast<Index>(before.size()));
+}
+
+TEST_CASE("layers: matching can be cancelled") {
+  const shapes::Shape shape = gap(0.02);
+  const Geometry geometry(shape.plc, shape.records);
+  Context context, cancelled([](const char*, double) { return false; });
+  const SizeField size(shape.plc, geometry, fixed_size(0.6), context);
+  SurfaceMesh surface = mesh_surfaces(shape.plc, geometry, size, {}, context);
+  std::vector<char> fixed;
+  CHECK_THROWS_AS(match_layers(surface, shape.plc, geometry, size, {0, 1}, fixed, cancelled), Cancelled);
 }

@@ -120,7 +120,10 @@ TEST_CASE("partition: a removed label is found again from the tetrahedra") {
     missing.push_back(t);
   }
   REQUIRE(missing.size() > 10);
-  partition_solids(mesh, missing);
+  Context cancelled([](const char*, double) { return false; });
+  auto copy = mesh;
+  CHECK_THROWS_AS(partition_solids(copy, missing, cancelled), Cancelled);
+  partition_solids(mesh, missing, stages.context);
   check_boundary(mesh);
   CHECK(solid_volume(mesh, 1) == doctest::Approx(before[0]).epsilon(0.02));
   CHECK(solid_volume(mesh, 2) == doctest::Approx(before[1]).epsilon(0.02));
