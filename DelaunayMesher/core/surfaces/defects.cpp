@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "base/tet_geometry.h"
 #include "surfaces/crossings.h"
@@ -14,14 +15,15 @@
 namespace dm {
 namespace {
 
-constexpr double kSmallAngle = 0.94;   // cosine of 20 degrees
-constexpr double kShortSegment = 0.5;  // over the wanted length
-constexpr double kStripLength = 1.5;   // wanted length over the strip's width
-constexpr double kFloor = 1.0 / 24;    // of the length the size field wants
-constexpr double kTip = 12;            // shortest length over the width: too narrow there for any gain
-constexpr double kWedge = 3;           // distance from the meeting point over the width: 20 degrees
-constexpr double kSharp = 0.5;         // solid angle: the end of a wedge of 20 degrees has 0.35 to 0.7
-constexpr double kNoGain = 0.85;       // a cap no shorter than this, over the present length, is not worth it
+constexpr double kSmallAngle = 0.94;    // cosine of 20 degrees
+constexpr double kShortSegment = 0.5;   // over the wanted length
+constexpr double kStripLength = 1.5;    // wanted length over the strip's width
+constexpr double kFloor = 1.0 / 24;     // of the length the size field wants
+constexpr double kFoldFloor = 1.0 / 8;  // ... where faces meet at less than 20 degrees
+constexpr double kTip = 12;             // shortest length over the width: too narrow there for any gain
+constexpr double kWedge = 3;            // distance from the meeting point over the width: 20 degrees
+constexpr double kSharp = 0.5;          // solid angle: the end of a wedge of 20 degrees has 0.35 to 0.7
+constexpr double kNoGain = 0.85;  // a cap no shorter than this, over the present length, is not worth it
 
 class NarrowPlaces {
  public:
@@ -44,7 +46,9 @@ class NarrowPlaces {
       const Vec3 &pa = mesh_.points[a], &pb = mesh_.points[b], &pc = mesh_.points[c];
       const double width = height(pa, pb, pc);
       const Vec3 place = (1.0 / 3) * (pa + pb + pc);
-      const double floor = kFloor * lengths_.without_caps(place);
+      const double wanted = lengths_.without_caps(place);
+      const double floor =
+          (kStripLength * width < kFoldFloor * wanted && at_fold(v) ? kFoldFloor : kFloor) * wanted;
       if (in_wedge(v, width, kTip * width < floor)) continue;
       const double length = std::max(kStripLength * width, floor);
       if (length < kNoGain * lengths_.at(place)) found.push_back({place, length, mesh_.triangle_face[t], -1});
@@ -96,6 +100,34 @@ class NarrowPlaces {
     return false;
   }
 
+  // Does a corner lie where two faces meet at an acute angle?  Smaller triangles there only make more
+  // elements as flat as that.
+  bool at_fold(const Triangle& v) {
+    if (folded_.empty()) find_folds();
+    return folded_[v[0]] || folded_[v[1]] || folded_[v[2]];
+  }
+
+  void find_folds() {
+    std::vector<std::tuple<Index, Index, Vec3>> sides;  // ends in order, normal of the triangle
+    for (const Triangle& t : mesh_.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+        if (is_segment(a, b)) sides.emplace_back(a, b, normal(t));
+      }
+    std::sort(sides.begin(), sides.end(), [](const auto& x, const auto& y) {
+      return std::tie(std::get<0>(x), std::get<1>(x)) < std::tie(std::get<0>(y), std::get<1>(y));
+    });
+    folded_.assign(mesh_.points.size(), 0);
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+      const auto& [a, b, n] = sides[k];
+      const auto& [c, d, m] = sides[k - 1];
+      if (a == c && b == d && dot(n, m) < -kSmallAngle) folded_[a] = folded_[b] = 1;
+    }
+  }
+  Vec3 normal(const Triangle& t) const {
+    return normalized(area_vector(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]));
+  }
+
   // Ends of edges at which some solid has a small solid angle: by the areas of the triangles between the
   // sides of the fan and any one direction, on the sphere round the point, a multiple of the sphere left
   // aside.
@@ -136,7 +168,7 @@ class NarrowPlaces {
   const LengthField& lengths_;
   std::vector<std::pair<Index, Index>> segments_;  // sorted; made when first needed, as are
   std::optional<EdgePaths> paths_;
-  std::vector<char> sharp_;  // by point
+  std::vector<char> sharp_, folded_;  // by point
 };
 
 std::vector<Index> triangles_at_repeated_points(const SurfaceMesh& mesh) {

@@ -27,3 +27,29 @@ TEST_CASE("two points of a face on the same place count as a face that crosses i
     CHECK(d.other == 0);
   }
 }
+
+TEST_CASE(
+    "a strip far narrower than its triangles asks for small ones, but not where faces meet at an acute "
+    "angle") {
+  const shapes::Shape box = shapes::box(1, 1, 1);
+  const Geometry geometry(box.plc, box.records);
+  Context context;
+  SizeOptions options;
+  options.max_size = 0.3;
+  const SizeField size(box.plc, geometry, options, context);
+  const LengthField lengths(size, 0.8);
+  const auto least_length = [&](const Vec3& beyond) {
+    SurfaceMesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0.002, 0}, {0, 0.002, 0}, beyond};
+    mesh.point_entity = {{1, 0}, {1, 0}, {1, 1}, {1, 1}, {2, 1}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 4}};
+    mesh.triangle_face = {0, 0, 1};
+    mesh.segments = {{0, 1}, {2, 3}};
+    mesh.segment_edge = {0, 1};
+    double least = HUGE_VAL;
+    for (const Defect& d : find_narrow_places(mesh, box.plc, lengths)) least = std::min(least, d.length);
+    return least;
+  };
+  CHECK(least_length({0.5, -0.5, 0}) == doctest::Approx(0.01));
+  CHECK(least_length({0.5, 0.5, -0.05}) == doctest::Approx(0.03));
+}
