@@ -6,11 +6,42 @@ namespace dm {
 namespace {
 
 constexpr Triangle kNothing{-1, -1, -1};
+constexpr Index kOutside = -1;  // stands for what is beyond the boundary, as a point
 
 bool contains(const Tet& t, Index v) { return t[0] == v || t[1] == v || t[2] == v || t[3] == v; }
 bool contains(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
 
+// The sides of what faces the end of an edge, its link: of tetrahedra, and with kOutside of boundary
+// triangles. A point is a side with itself.  Those that face the whole edge come apart.
+void list_link(EditMesh& mesh, Index end, Index other, std::vector<Segment>& link,
+               std::vector<Segment>& of_edge) {
+  const auto add = [&](Index v, Index w, bool both) {
+    if (v != end && w != end && v != other && w != other)
+      (both ? of_edge : link).push_back({std::min(v, w), std::max(v, w)});
+  };
+  for (const Index t : mesh.star(end)) {
+    const Tet& c = mesh.tet(t);
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j <= i; ++j) add(c[i], c[j], contains(c, other));
+      if (!mesh.marked(t, i) || c[i] == end) continue;
+      for (const int k : EditMesh::kFace[i]) add(c[k], kOutside, contains(c, other) && c[i] != other);
+    }
+  }
+}
+
 }  // namespace
+
+bool breaks_link(EditMesh& mesh, Index from, Index to) {
+  std::vector<Segment> one, two, both;
+  list_link(mesh, from, to, one, both);
+  list_link(mesh, to, from, two, both);
+  std::sort(one.begin(), one.end());
+  std::sort(both.begin(), both.end());
+  return std::any_of(two.begin(), two.end(), [&](const Segment& side) {
+    return std::binary_search(one.begin(), one.end(), side) &&
+           !std::binary_search(both.begin(), both.end(), side);
+  });
+}
 
 // A triangle of the cone that is new: it holds `to` and was no face of the star.
 bool Contractor::makes_forbidden_face(const Plan& plan, Index to) const {
@@ -64,22 +95,6 @@ bool Contractor::list_triangles(Index from) {
       if (std::find(triangles_.begin(), triangles_.end(), k) == triangles_.end()) triangles_.push_back(k);
     }
   return true;
-}
-
-// A neighbour of both ends that is in no tetrahedron with both: the edges to it would become one.
-bool Contractor::shares_other_neighbours(Index from, Index to) {
-  std::vector<Index> near, own;
-  for (const Index t : mesh_.star(from)) {
-    auto& list = contains(mesh_.tet(t), to) ? near : own;
-    list.insert(list.end(), mesh_.tet(t).begin(), mesh_.tet(t).end());
-  }
-  for (auto* list : {&near, &own}) std::sort(list->begin(), list->end());
-  for (const Index t : mesh_.star(to))
-    for (const Index v : mesh_.tet(t))
-      if (v != to && v != from && std::binary_search(own.begin(), own.end(), v) &&
-          !std::binary_search(near.begin(), near.end(), v))
-        return true;
-  return false;
 }
 
 // The turned triangles beside the old ones of their CAD face.
@@ -188,7 +203,7 @@ bool Contractor::collapse_best(Index tet) {
 bool Contractor::contract(Index from, Index to) {
   Plan found;
   if (!plan_boundary(from, to) || !plan(from, to, kInverted, found)) return false;
-  if (!mesh_.interior(from) && (shares_other_neighbours(from, to) || !keeps_surface(from, to))) return false;
+  if (!mesh_.interior(from) && (breaks_link(mesh_, from, to) || !keeps_surface(from, to))) return false;
   if (makes_forbidden_face(found, to)) return false;
   apply(found);
   return true;

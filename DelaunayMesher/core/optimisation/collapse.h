@@ -3,14 +3,18 @@
 // The star of the point becomes the cone from the other end over the star's faces; it is valid exactly when
 // every new tetrahedron is positively oriented.  A point on a CAD face goes to another point on that face,
 // one on a CAD edge along the edge, each with its boundary triangles: they turn by less than 25 degrees and
-// lie as close to the CAD as the old ones, and the two points have no common neighbours but those at their
-// edge. No interior triangle with all corners on one CAD face appears.  Cost: some microseconds.
+// lie as close to the CAD as the old ones, and breaks_link() is false.  No interior triangle with all corners
+// on one CAD face appears.  Cost: some microseconds.
 #pragma once
 
 #include "optimisation/edit_mesh.h"
 #include "plc/geometry.h"
 
 namespace dm {
+
+// Is something beside both ends that is not beside the edge between them?  Two edges or faces would become
+// one, or the solid touch itself (link condition: Dey, Edelsbrunner, Guha, Nekhayev 1999).
+bool breaks_link(EditMesh& mesh, Index from, Index to);
 
 class Contractor {
  public:
@@ -33,7 +37,6 @@ class Contractor {
   bool makes_forbidden_face(const Plan& plan, Index to) const;
   bool plan_boundary(Index from, Index to);
   bool list_triangles(Index from);
-  bool shares_other_neighbours(Index from, Index to);
   bool keeps_surface(Index from, Index to);
   bool stays_close(Index face, Index from, Index to) const;
   void apply(const Plan& plan);

@@ -161,6 +161,7 @@ class SurfaceMesher {
   void remesh_face(const PatchSource& source, Index f, const PatchPoll& poll) {
     patches_[f] = source.extract(f);
     left_[f].clear();
+    if (patches_[f].triangle_slots() == 0) return;  // absorbed, or of a solid that is meshed apart
     PatchRemesher remesher(patches_[f], f, geometry_, lengths_, options_, context_.seed, poll);
     if (mode_[f] == FaceMode::refined) remesher.split_across_bends();
     if (mode_[f] != FaceMode::remeshed) remesher.insert_samples();

@@ -114,6 +114,27 @@ TEST_CASE("points of CAD faces and edges are contracted along them") {
   }
 }
 
+// Two tetrahedra on the triangle (0, 1, 2), whose sides all lie on the boundary, and on each of them another
+// one over the edge (0, 2).
+TEST_CASE("an edge round which the boundary runs in a ring of three is not contracted") {
+  sample::Sample s;
+  s.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {-1, 0, 1}, {-1, 0, -1}};
+  s.mesh.point_entity.assign(7, {0, 0});
+  s.mesh.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 3, 2, 5}, {0, 2, 4, 6}};
+  for (Tet& t : s.mesh.tets) {
+    const Vec3 &a = s.mesh.points[t[0]], &b = s.mesh.points[t[1]], &c = s.mesh.points[t[2]];
+    if (dot(area_vector(a, b, c), s.mesh.points[t[3]] - a) < 0) std::swap(t[0], t[1]);
+  }
+  sample::link(s.mesh);
+  Index faces = 0;
+  sample::add_boundary(s.mesh, [&](const Triangle&) { return faces++; });
+  EditMesh mesh(s.mesh);
+  CHECK(breaks_link(mesh, 0, 1));
+  CHECK(breaks_link(mesh, 1, 0));
+  CHECK_FALSE(breaks_link(mesh, 5, 3));
+  CHECK_FALSE(breaks_link(mesh, 0, 5));
+}
+
 TEST_CASE("a trial that is taken back leaves every byte as it was") {
   auto s = sample::two_boxes(0.2, 4);
   const VolumeMesh before = s.mesh;
