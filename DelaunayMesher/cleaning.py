@@ -11,9 +11,10 @@ EXACT = 1e-10  # relative to the diagonal: the same point written twice
 LOOSE = 1e-6  # what single precision files may leave open
 
 
-def clean(points, triangles, labels=None):
+def clean(points, triangles, labels=None, repeated=False):
     """Points (n, 3), triangles (m, 3) int64 and labels (m,) without duplicates, and a list of warnings.
 
+    repeated: whether triangles on the same three points all stay, as walls between two bodies have them.
     Merges points closer than 1e-10 of the diagonal; if edges stay open, closer than 1e-6 (single precision).
     Raises MeshError for an empty surface, numbers that are not finite and indices out of range.
     """
@@ -37,10 +38,10 @@ def clean(points, triangles, labels=None):
     spread = np.linalg.svd(np.cov(points.T), compute_uv=False)
     if spread[2] <= (EXACT * length) ** 2:
         raise MeshError("plc", "zero_volume", "all points of the surface lie in one plane", points[0])
-    merged = _merged(points, triangles, labels, EXACT * length)
+    merged = _merged(points, triangles, labels, EXACT * length, repeated)
     warnings = []
     if _has_open_edges(merged[0]):
-        loose = _merged(points, triangles, labels, LOOSE * length)
+        loose = _merged(points, triangles, labels, LOOSE * length, repeated)
         if not _has_open_edges(loose[0]):
             merged = loose
             warnings.append("points closer than %.3g mm were merged to close the surface" % (LOOSE * length))
@@ -50,12 +51,14 @@ def clean(points, triangles, labels=None):
     return points, triangles, labels, warnings
 
 
-def _merged(points, triangles, labels, tolerance):
-    """Triangles on merged points, without flat and repeated ones."""
+def _merged(points, triangles, labels, tolerance, repeated):
+    """Triangles on merged points, without flat ones, and repeated ones unless wanted."""
     triangles = merge_points(points - points[0], tolerance)[triangles]
     a, b, c = triangles.T
     keep = (a != b) & (b != c) & (c != a)
     triangles, labels = triangles[keep], labels[keep]
+    if repeated:
+        return triangles, labels
     order, same = _same_as_before(np.sort(triangles, axis=1).T)
     first = np.sort(order[~same])
     return triangles[first], labels[first]

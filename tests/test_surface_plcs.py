@@ -5,6 +5,7 @@ import pytest
 from sample_surfaces import box, joined, sphere, volume
 
 from DelaunayMesher import pipeline
+from DelaunayMesher.errors import MeshError
 from DelaunayMesher.overlaps import find_overlaps
 from DelaunayMesher.surface_plcs import to_plcs
 
@@ -27,7 +28,7 @@ def volumes(plcs):
 def test_pieces_that_cross_are_solids_of_their_own(low, high):
     plcs = to_plcs(*joined(UNIT, box(low, high)))
     assert volumes(plcs) == pytest.approx([1, np.prod(np.subtract(high, low))])
-    assert "cross each other" in plcs[0].warnings[0]
+    assert "cross or overlap each other" in plcs[0].warnings[0]
     assert [plc.solid_numbers.tolist() for plc in plcs] == [[1], [2]]
     assert np.unique(plcs[0].triangle_face).tolist() == list(range(6))
     assert np.unique(plcs[1].triangle_face).tolist() == list(range(6, 12))
@@ -50,6 +51,18 @@ def test_pieces_that_do_not_cross_stay_together():
 def test_a_cavity_of_one_of_several_that_cross():
     crossing = joined(UNIT, box((0.1, 0.1, 0.1), (0.3, 0.3, 0.3)), box((0.7, 0.7, 0.7), (1.5, 1.5, 1.5)))
     assert volumes(to_plcs(*crossing)) == pytest.approx([1 - 0.2**3, 0.8**3])
+
+
+def test_bodies_that_lie_on_each_other_with_other_triangles():
+    """The upper one stands on a part of the lower one's top, with two corners in common."""
+    same_wall = box((0, 0.5, 1), (1, 1, 2))  # as the second one
+    surface = joined(UNIT, box((0, 0, 1), (1, 0.5, 2)), same_wall, box((3, 0, 0), (4, 1, 1)))
+    plcs = to_plcs(*surface)
+    assert sorted(volumes(plcs)) == pytest.approx([0.5, 0.5, 1, 1])
+    assert len(plcs) == 3 and "overlap" in plcs[0].warnings[0]
+    with pytest.raises(MeshError) as caught:  # no body after the other: nothing says what belongs together
+        to_plcs(surface[0], np.random.default_rng(1).permutation(surface[1]))
+    assert caught.value.code == "overlap"
 
 
 def test_the_mesh_of_pieces_that_cross():

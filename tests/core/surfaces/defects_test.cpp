@@ -6,21 +6,34 @@
 
 using namespace dm;
 
-TEST_CASE("two points of a face on the same place count as a face that crosses itself") {
-  const shapes::Shape box = shapes::box(1, 1, 1);
-  const Geometry geometry(box.plc, box.records);
+namespace {
+
+// The lengths wanted on a box of side 1: 0.24.
+struct BoxLengths {
+  shapes::Shape shape = shapes::box(1, 1, 1);
+  Geometry geometry{shape.plc, shape.records};
   Context context;
-  SizeOptions options;
-  options.max_size = 0.3;
-  const SizeField size(box.plc, geometry, options, context);
-  const LengthField lengths(size, 0.8);
+  SizeField size{shape.plc, geometry, options(), context};
+  LengthField lengths{size, 0.8};
+
+  static SizeOptions options() {
+    SizeOptions options;
+    options.max_size = 0.3;
+    return options;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("two points of a face on the same place count as a face that crosses itself") {
+  const BoxLengths box;
   SurfaceMesh mesh;
   mesh.points = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0},
                  {0, -1, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
   mesh.point_entity.assign(9, {2, 0});
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   mesh.triangle_face = {0, 0, 1};
-  const auto found = find_crossing_defects(mesh, lengths);
+  const auto found = find_crossing_defects(mesh, box.lengths);
   REQUIRE(found.size() == 2);
   for (const Defect& d : found) {
     CHECK(d.face == 0);
@@ -31,13 +44,7 @@ TEST_CASE("two points of a face on the same place count as a face that crosses i
 TEST_CASE(
     "a strip far narrower than its triangles asks for small ones, but not where faces meet at an acute "
     "angle") {
-  const shapes::Shape box = shapes::box(1, 1, 1);
-  const Geometry geometry(box.plc, box.records);
-  Context context;
-  SizeOptions options;
-  options.max_size = 0.3;
-  const SizeField size(box.plc, geometry, options, context);
-  const LengthField lengths(size, 0.8);
+  const BoxLengths box;
   const auto least_length = [&](const Vec3& beyond) {
     SurfaceMesh mesh;
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0.002, 0}, {0, 0.002, 0}, beyond};
@@ -47,7 +54,8 @@ TEST_CASE(
     mesh.segments = {{0, 1}, {2, 3}};
     mesh.segment_edge = {0, 1};
     double least = HUGE_VAL;
-    for (const Defect& d : find_narrow_places(mesh, box.plc, lengths)) least = std::min(least, d.length);
+    for (const Defect& d : find_narrow_places(mesh, box.shape.plc, box.lengths))
+      least = std::min(least, d.length);
     return least;
   };
   CHECK(least_length({0.5, -0.5, 0}) == doctest::Approx(0.01));
