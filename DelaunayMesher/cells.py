@@ -160,6 +160,21 @@ def signed_volumes(points, triangles):
     return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
 
 
+def outward_triangles(points, triangles):
+    """(k, 3) those of one closed piece that bound it towards the outside, turned to point there.
+
+    Raises MeshError (open_edge, overlap) with the place.
+    """
+    shell = _shells(points, triangles, half_edges(triangles))
+    outer = int(np.argmin(_shell_volumes(points, triangles, shell)))
+    return _seen_from_behind(triangles, np.flatnonzero(shell == outer))[:, ::-1]
+
+
+def _seen_from_behind(triangles, sides):
+    """(k, 3) triangles of some sides, turned to point away from the region that these face."""
+    return np.where((sides % 2 == BACK)[:, None], triangles[sides // 2], triangles[sides // 2][:, ::-1])
+
+
 def _nesting(points, triangles, shell, component, volumes):
     """Region of each shell (0 = outside), and of each region the one round it and its depth (outside 0)."""
     outer = np.flatnonzero(volumes > 0)
@@ -203,9 +218,7 @@ def _containing(points, triangles, shell, volumes, outer, component_of, hole, re
 
 def _winding(points, triangles, shell, number, place):
     """Winding number of a shell round a place off it."""
-    sides = np.flatnonzero(shell == number)
-    mine = triangles[sides // 2]
-    return winding(points[np.where((sides % 2 == BACK)[:, None], mine, mine[:, ::-1])], place)
+    return winding(points[_seen_from_behind(triangles, np.flatnonzero(shell == number))], place)
 
 
 def winding(corners, place):

@@ -13,7 +13,8 @@ INSIDE, OUTSIDE = 0.9, 0.1  # winding numbers; on the surface it is between
 
 
 def find_overlaps(bodies, known):
-    """[(inner, outer, place, whole), ...] of bodies, a list of the corners (m, 3, 3) of their triangles.
+    """[(inner, outer, place, whole), ...] of bodies, a list of the corners (m, 3, 3) of triangles that point
+    outwards.
 
     place: a corner of `inner` inside `outer`; whole: no corner is outside it. known (n, n) bool: pairs to
     leave out.
@@ -29,7 +30,7 @@ def find_overlaps(bodies, known):
         for outer in np.flatnonzero(meets).tolist():
             near = ((places > low[outer]) & (places < high[outer])).all(axis=1)
             picked = places[near][:: max(1, near.sum() // SAMPLES)]
-            numbers = np.array([abs(winding(bodies[outer], place)) for place in picked])
+            numbers = np.array([winding(bodies[outer], place) for place in picked])
             if (numbers > INSIDE).any():
                 whole = bool(near.all() and (numbers > OUTSIDE).all())
                 found.append((inner, outer, picked[numbers.argmax()], whole))

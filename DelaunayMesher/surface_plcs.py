@@ -79,7 +79,7 @@ def crossing_pieces(points, triangles, piece):
     first, second = piece[extension.load().crossings(points, triangles.astype(np.int32))].T
     cross[first, second] = cross[second, first] = True
     np.fill_diagonal(cross, False)
-    bodies = [points[triangles[piece == number]] for number in range(count)]
+    bodies = [points[cells.outward_triangles(points, triangles[piece == k])] for k in range(count)]
     for inner, outer, _, whole in find_overlaps(bodies, cross):
         cross[inner, outer] = cross[outer, inner] = not whole
     return cross

@@ -48,6 +48,16 @@ def test_pieces_that_do_not_cross_stay_together():
     assert volumes(cavity) == pytest.approx([1 - 0.6**3])
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_orientation_of_the_triangles_does_not_matter(seed):
+    cavity = joined(UNIT, box((0.1, 0.2, 0.3), (0.8, 0.7, 0.6)))
+    crossing = joined(UNIT, box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5)))
+    for (points, triangles), expected, count in ((cavity, [1 - 0.7 * 0.5 * 0.3], 1), (crossing, [1, 1], 2)):
+        flip = np.random.default_rng(seed).random((len(triangles), 1)) < 0.5
+        plcs = to_plcs(points, np.where(flip, triangles[:, ::-1], triangles))
+        assert volumes(plcs) == pytest.approx(expected) and len(plcs) == count
+
+
 def test_a_cavity_of_one_of_several_that_cross():
     crossing = joined(UNIT, box((0.1, 0.1, 0.1), (0.3, 0.3, 0.3)), box((0.7, 0.7, 0.7), (1.5, 1.5, 1.5)))
     assert volumes(to_plcs(*crossing)) == pytest.approx([1 - 0.2**3, 0.8**3])

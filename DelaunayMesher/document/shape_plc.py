@@ -37,6 +37,7 @@ class ShapePlc:
         self.kept = {kind: numbers_of(keep, kind) for kind in ("Vertex", "Edge", "Face")}
         self.contacts = find_contacts(mesh, sides)
         self.geometry = Geometry(mesh, self.kept)
+        self.kept_edges = edges_that_stay(mesh, self.kept)
         self._aliases = {}
         groups = groups_of_solids(mesh.cad, sides, self.contacts)
         groups = [[solid for solid in group if (sides == solid).any()] for group in groups]
@@ -116,15 +117,8 @@ class ShapePlc:
             solid_numbers=np.array(solids),
             cad_solid_count=len(cad.solids),
             kept_faces=[number for number in self.kept["Face"] if number < len(cad.faces)],
-            kept_edges=[number for number in self.kept_edges() if number < len(cad.edges)],
+            kept_edges=self.kept_edges,
         )
-
-    def kept_edges(self):
-        """Numbers of the edges that stay: with a vertex that does so all that meet there."""
-        mesh = self.mesh
-        vertices = [number for number in self.kept["Vertex"] if number < len(mesh.vertex_point)]
-        ends = np.isin(mesh.segments, mesh.vertex_point[vertices]).any(axis=1)
-        return sorted({*self.kept["Edge"], *mesh.segment_edge[ends].tolist()})
 
     def segments_of(self, triangles, used, aliases):
         """(segments (k, 2), their edges) along triangles, whose points are `used`; see Aliases.edges."""
@@ -184,17 +178,25 @@ def numbers_of(names, kind):
     return sorted({int(ending) - 1 for ending in endings if ending.isdecimal() and int(ending) > 0})
 
 
+def edges_that_stay(mesh, kept):
+    """0-based numbers, ascending, of the edges kept: with a vertex all that meet there."""
+    vertices = [number for number in kept["Vertex"] if number < len(mesh.vertex_point)]
+    ends = np.isin(mesh.segments, mesh.vertex_point[vertices]).any(axis=1)
+    edges = [number for number in kept["Edge"] if number < len(mesh.cad.edges)]
+    return sorted({*edges, *mesh.segment_edge[ends].tolist()})
+
+
 def overlapping_solids(mesh, sides, groups, touching):
     """[(solid, other solid), ...] (1-based) of different groups that lie in each other though no faces of
     theirs touch."""
     solids = np.array([solid for group in groups for solid in group])
     group = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
     known = group[:, None] == group
-    place = np.zeros(len(mesh.cad.solids) + 1, dtype=np.int64)
-    place[solids] = np.arange(len(solids))
+    row = np.zeros(len(mesh.cad.solids) + 1, dtype=np.int64)
+    row[solids] = np.arange(len(solids))
     for first, second in touching:
         for a, b in solid_pairs(sides, first, second):
-            known[place[a], place[b]] = known[place[b], place[a]] = True
+            known[row[a], row[b]] = known[row[b], row[a]] = True
     bodies = [mesh.points[outward_triangles(mesh, sides, solid)] for solid in solids.tolist()]
     return sorted(
         {

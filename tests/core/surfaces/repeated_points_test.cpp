@@ -65,8 +65,8 @@ TEST_CASE("repeated points: they stay where other edges would become one") {
   SurfaceMesh mesh;
   add_tetrahedron(mesh, 1);
   add_tetrahedron(mesh, -1);
-  mesh.points[5] =
-      mesh.points[1];  // a second point in common: the edge between them would have four triangles
+  // A second point in common: the edge between the two would have four triangles.
+  mesh.points[5] = mesh.points[1];
   const std::vector<Triangle> before = mesh.triangles;
   join_repeated_points(mesh);
   CHECK(mesh.triangles == before);
