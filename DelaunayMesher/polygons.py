@@ -1,7 +1,7 @@
 """Triangulation of planar facets: polygons with holes, inner segments and loose points.
 
 The triangles only carry the surface to the mesher, which makes its own; what counts is that they fill the
-facet without a gap, use no new point and keep every given segment, whatever the shape. Method: sweep over the
+facet without a gap, use no new point and keep every given segment. Method: sweep over the
 points sorted by x (each is joined to the part of the hull that it sees), segments recovered by flipping what
 crosses them (Sloan 1993), outside and holes removed by flooding. Orientation tests are exact (fractions where
 doubles cannot tell). Cost: O(n * hull) points, fine for facets of some thousand points.
@@ -51,6 +51,27 @@ def triangulate_facet(points, loops, holes=()):
     return result if normal[drop] > 0 else result[:, ::-1]
 
 
+def plane_triangles(points, loops):
+    """(t, 3) triangles inside loops in a plane that turn as the largest one, the others being holes; None if
+    loops cross each other.
+
+    As triangulate_facet(), but inner segments and points do not ask for a place in a hole.
+    """
+    outer = max(loops, key=lambda loop: _area2(points[loop]))
+    try:
+        holes = [
+            points[triangulate_facet(points, [loop])[0]].mean(axis=0)
+            for loop in loops
+            if loop is not outer and len(loop) > 2
+        ]
+        triangles = triangulate_facet(points, loops, holes)
+    except InputError:
+        return None
+    ahead = {(int(a), int(b)) for corners in triangles for a, b in zip(corners, np.roll(corners, -1))}
+    right = all((a, b) in ahead for a, b in zip(outer, [*outer[1:], outer[0]]))
+    return triangles if right else triangles[:, ::-1]
+
+
 def _bad_facet(message, place):
     return InputError("read", "bad_facet", message, place)
 
@@ -69,8 +90,10 @@ class _CrossingError(Exception):
 
 def _turn(a, b, c):
     """Sign of the area of the triangle a, b, c in the plane, exact."""
-    left = (b[0] - a[0]) * (c[1] - a[1])
-    right = (b[1] - a[1]) * (c[0] - a[0])
+    bx, by, cx, cy = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
+    if not ((bx and cy) or (by and cx)):
+        return 0  # on a line along an axis, as often as not
+    left, right = bx * cy, by * cx
     det = left - right
     if abs(det) > 1e-14 * (abs(left) + abs(right)):
         return 1 if det > 0 else -1
@@ -84,6 +107,7 @@ def _constrained(flat, segments):
     opposite = _sweep(flat)
     for a, b in sorted(segments):
         _recover(flat, opposite, a, b, segments)
+    _flip_to_delaunay(flat, opposite, segments)
     return opposite
 
 
@@ -161,6 +185,32 @@ def _crossed(flat, opposite, a, b):
         if side == 0:
             raise _CrossingError(a)
         p, q = (r, q) if side < 0 else (p, r)
+
+
+def _flip_to_delaunay(flat, opposite, segments):
+    """Flip edges that are no segments until none has a corner in the circle of the triangle beyond it."""
+    waiting = [(a, b) for a, b in opposite if a < b]
+    while waiting:
+        p, q = waiting.pop()
+        r, s = opposite.get((p, q)), opposite.get((q, p))
+        if r is None or s is None or (min(p, q), max(p, q)) in segments:
+            continue
+        if not _in_circle(flat[p], flat[q], flat[r], flat[s]):
+            continue
+        if _turn(flat[r], flat[p], flat[s]) > 0 and _turn(flat[s], flat[q], flat[r]) > 0:
+            del opposite[p, q], opposite[q, p]
+            _add(opposite, r, p, s)
+            _add(opposite, s, q, r)
+            waiting += [(p, s), (s, q), (q, r), (r, p)]
+
+
+def _in_circle(a, b, c, d):
+    """Whether d lies clearly inside the circle of a, b, c, which turn to the left."""
+    rows = [(p[0] - d[0], p[1] - d[1]) for p in (a, b, c)]
+    (ax, ay), (bx, by), (cx, cy) = rows
+    a2, b2, c2 = (x * x + y * y for x, y in rows)
+    terms = (a2 * bx * cy, -a2 * by * cx, b2 * cx * ay, -b2 * cy * ax, c2 * ax * by, -c2 * ay * bx)
+    return sum(terms) > 1e-12 * sum(map(abs, terms))
 
 
 def _inside(flat, opposite, segments, holes):

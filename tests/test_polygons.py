@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from DelaunayMesher.errors import InputError
-from DelaunayMesher.polygons import triangulate_facet
+from DelaunayMesher.polygons import plane_triangles, triangulate_facet
 
 
 def area_vector(points, triangles):
@@ -67,3 +67,39 @@ def test_crossing_polygons_are_refused():
 def test_facet_without_area_is_refused():
     with pytest.raises(InputError):
         triangulate_facet(np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0.0]]), [[0, 1, 2, 3]])
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 2**32 - 1), st.integers(8, 40), st.integers(0, 60))
+def test_inner_edges_are_delaunay(seed, count, inner):
+    """No corner of a neighbour lies in the circle of a triangle (distances, instead of a determinant)."""
+    random = np.random.default_rng(seed)
+    points = np.concatenate([star(random, count), 0.1 * star(random, inner + 4)])
+    loops = [list(range(count)), *([number] for number in range(count, len(points)))]
+    triangles = plane_triangles(points, loops)
+    assert len(triangles) == count - 2 + 2 * (len(points) - count)
+    beyond = {}
+    for corners in triangles.tolist():
+        for k in range(3):
+            beyond[corners[k], corners[k - 2]] = corners[k - 1]
+    for (a, b), c in beyond.items():
+        d = beyond.get((b, a))
+        if d is None or {a, b} <= set(loops[0]):
+            continue
+        p, q, r = (points[v][:2] for v in (a, b, c))
+        rows = np.array([q - p, r - p])
+        if abs(np.linalg.det(rows)) < 1e-9:
+            continue
+        centre = p + np.linalg.solve(2 * rows, (rows**2).sum(axis=1))
+        radius = np.linalg.norm(centre - p)
+        assert np.linalg.norm(centre - points[d][:2]) > radius - 1e-6 * max(radius, 1)
+
+
+def test_a_hole_is_left_open_and_points_in_the_plane_stay():
+    points = np.array(
+        [[0, 0, 0], [6, 0, 0], [6, 6, 0], [0, 6, 0], [1, 1, 0], [1, 3, 0], [3, 3, 0], [3, 1, 0], [5, 5, 0.0]]
+    )
+    triangles = plane_triangles(points, [[0, 1, 2, 3], [4, 5, 6, 7], [8]])
+    assert area_vector(points, triangles)[2] == pytest.approx(32)
+    assert (triangles == 8).any()
+    assert plane_triangles(points, [[0, 2, 1, 3]]) is None

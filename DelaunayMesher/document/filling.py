@@ -14,8 +14,9 @@ from dataclasses import replace
 import numpy as np
 import Part
 
+from ..polygons import plane_triangles
 from .closed import side_triangles
-from .patch import FaceShape, bridged, least_cost, onto_surface, plane_triangles
+from .patch import FaceShape, bridged, least_cost, onto_surface
 
 LONGEST = 500  # points of all loops of a face that is not a plane with simple outlines
 

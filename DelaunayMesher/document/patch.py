@@ -11,8 +11,6 @@ import itertools
 import numpy as np
 from FreeCAD import Vector
 
-from ..errors import MeshError
-from ..polygons import triangulate_facet
 from .tessellation import ONE_TURN, ROUND
 
 AREA = 1.001  # of the area itself, beside the area along the normals: settles what they leave open
@@ -23,26 +21,6 @@ SAMPLES = 24  # in each direction of a face
 STEPS = 30
 BEYOND = 1e-6  # of its range: how far a parameter may lie outside a face
 SETTLED = 1e-6  # of the distance from the surface: the last step
-
-
-def plane_triangles(points, loops):
-    """(t, 3) triangles inside loops in a plane, or None if these cross each other."""
-    try:
-        outer = max(loops, key=lambda loop: np.linalg.norm(area_vector(points[loop])))
-        holes = [
-            points[triangulate_facet(points, [loop])[0]].mean(axis=0) for loop in loops if loop is not outer
-        ]
-        triangles = triangulate_facet(points, loops, holes)
-    except MeshError:
-        return None
-    ahead = {(int(a), int(b)) for corners in triangles for a, b in zip(corners, np.roll(corners, -1))}
-    right = all((a, b) in ahead for loop in loops for a, b in zip(loop, [*loop[1:], loop[0]]))
-    return triangles if right else triangles[:, ::-1]
-
-
-def area_vector(places):
-    """Area vector of a closed polygon."""
-    return 0.5 * np.cross(places - places[0], np.roll(places, -1, axis=0) - places[0]).sum(axis=0)
 
 
 def bridged(points, loops):
