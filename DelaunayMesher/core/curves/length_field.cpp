@@ -5,51 +5,61 @@
 
 namespace dm {
 
-void LengthField::Places::add(const Vec3& p, double value) {
-  points_.push_back(p);
-  values_.push_back(value);
-}
+void LengthField::Places::add(const Vec3& p, double value) { places_.push_back({p, value}); }
 
 void LengthField::Places::build() {
-  if (tree_.order().size() == points_.size()) return;
-  std::vector<Box> boxes(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) boxes[i].add(points_[i]);
+  if (tree_.order().size() == places_.size()) return;
+  std::vector<Box> boxes(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) boxes[i].add(places_[i].point);
   tree_ = BoxTree(boxes);
   least_.assign(tree_.nodes().size(), HUGE_VAL);
+  const std::vector<Place> given(places_);
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = given[tree_.order()[i]];
   for (std::size_t n = least_.size(); n-- > 0;) {
     const BoxTree::Node& node = tree_.nodes()[n];
     if (node.count == 0) least_[n] = std::min(least_[node.first], least_[node.first + 1]);
     for (Index k = node.first; k < node.first + node.count; ++k)
-      least_[n] = std::min(least_[n], values_[tree_.order()[k]]);
+      least_[n] = std::min(least_[n], places_[k].value);
   }
 }
 
-double LengthField::Places::lowest(const Vec3& p, double most) const {
+double LengthField::Places::lowest(const Vec3& p, double most, double enough) const {
   if (tree_.empty()) return most;
-  const auto bound = [&](Index n) {
-    return least_[n] + kGrowth * std::sqrt(tree_.nodes()[n].box.distance2(p));
+  // A value v at the distance d counts where v + kGrowth d < most; without square roots.
+  const auto counts = [&](double value, double distance2) {
+    const double room = most - value;
+    return room > 0 && kGrowth * kGrowth * distance2 < room * room;
   };
-  Index stack[64];  // the tree is balanced: depth < 32
+  struct Visit {
+    Index node;
+    double distance2;
+  };
+  Visit stack[64];  // the tree is balanced: depth < 32
   int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Index n = stack[--top];
-    if (bound(n) >= most) continue;
+  stack[top++] = {0, tree_.nodes()[0].box.distance2(p)};
+  while (top > 0 && most >= enough) {
+    const auto [n, distance2] = stack[--top];
+    if (!counts(least_[n], distance2)) continue;
     const BoxTree::Node& node = tree_.nodes()[n];
     if (node.count == 0) {
-      const bool first_nearer = bound(node.first) < bound(node.first + 1);
-      stack[top++] = node.first + first_nearer;
-      stack[top++] = node.first + !first_nearer;
+      Visit near{node.first, tree_.nodes()[node.first].box.distance2(p)};
+      Visit far{node.first + 1, tree_.nodes()[node.first + 1].box.distance2(p)};
+      if (far.distance2 < near.distance2) std::swap(near, far);
+      stack[top++] = far;
+      stack[top++] = near;
     }
     for (Index k = node.first; k < node.first + node.count; ++k) {
-      const Index i = tree_.order()[k];
-      most = std::min(most, values_[i] + kGrowth * distance(p, points_[i]));
+      const double d2 = norm2(p - places_[k].point);
+      if (counts(places_[k].value, d2)) most = places_[k].value + kGrowth * std::sqrt(d2);
     }
   }
   return most;
 }
 
-double LengthField::at(const Vec3& p) const { return -floors_.lowest(p, -caps_.lowest(p, without_caps(p))); }
+double LengthField::at_between(const Vec3& p, double low, double high) const {
+  const double most = std::min(without_caps(p), high);
+  return -floors_.lowest(p, -caps_.lowest(p, most, low));
+}
 
 void LengthField::add_cap(const Vec3& p, double length) {
   constexpr double field_growth = 0.2;  // the size field itself falls by no more, for usual growth rates

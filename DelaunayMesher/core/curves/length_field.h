@@ -18,7 +18,10 @@ class LengthField {
  public:
   LengthField(const SizeField& size, double edge_ratio) : size_(size), edge_ratio_(edge_ratio) {}
 
-  double at(const Vec3& p) const;                                                 // thread-safe
+  double at(const Vec3& p) const { return at_between(p, 0, HUGE_VAL); }  // thread-safe
+  // at(p) where that lies between the two, at less cost; elsewhere any length beyond the same one.
+  // Thread-safe.
+  double at_between(const Vec3& p, double low, double high) const;
   double without_caps(const Vec3& p) const { return edge_ratio_ * size_.at(p); }  // thread-safe
   double largest() const { return edge_ratio_ * size_.largest(); }
   // Asks for `length` at p; no effect where it is not wanted shorter.  Takes effect with apply_caps().
@@ -36,12 +39,15 @@ class LengthField {
    public:
     void add(const Vec3& p, double value);
     void build();
-    // The lowest of all values at p, or `most` if that is lower.
-    double lowest(const Vec3& p, double most) const;
+    // The lowest of all values at p, or `most` if that is lower; or any below `enough`.
+    double lowest(const Vec3& p, double most, double enough = -HUGE_VAL) const;
 
    private:
-    std::vector<Vec3> points_;
-    std::vector<double> values_;
+    struct Place {
+      Vec3 point;
+      double value;
+    };
+    std::vector<Place> places_;  // in the order of the tree's leaves
     BoxTree tree_;               // of the points
     std::vector<double> least_;  // value below each of its nodes
   };

@@ -57,7 +57,7 @@ double evaluate_site(const LabelledTriangulation& mesh, const Cavity& cavity, co
     if (s > target) {
       const Sphere sphere = circumsphere(a, b, c, p);
       const bool stuck = tets.marked(t, i) && dot(area_vector(a, b, c), sphere.centre - a) <= 0;
-      if (!stuck && sphere.radius2 > bound.squared(sphere.centre)) continue;  // too big to stay
+      if (!stuck && bound.excess(sphere, 1) > 1) continue;  // too big to stay
     }
     worst = s;
     if (worst > give_up) break;

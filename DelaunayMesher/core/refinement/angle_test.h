@@ -50,6 +50,11 @@ struct RadiusBound {
     const double r = factor * size.at(p);
     return r * r;
   }
+  // The sphere's radius over the bound where that lies between 1 and `most`; elsewhere any on the same side.
+  double excess(const Sphere& sphere, double most) const {
+    const double length = std::sqrt(sphere.radius2) / factor;
+    return length / size.at_between(sphere.centre, length / most, length);
+  }
 };
 
 inline constexpr double kRejected = 2;  // sharpness of no candidate at all

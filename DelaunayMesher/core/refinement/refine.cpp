@@ -86,8 +86,8 @@ class Refinement {
   // Beyond the bound; by up to kSlack only when its angles are not good, too: most tries would go into
   // splitting good tetrahedra that are hardly too big, next to others that are finished.
   bool is_big(Index tet, const Sphere& sphere) const {
-    const double bound2 = bound_.squared(sphere.centre);
-    return sphere.radius2 > bound2 && (sphere.radius2 > kSlack * kSlack * bound2 || is_sharp(tet));
+    const double excess = bound_.excess(sphere, kSlack);
+    return excess > 1 && (excess > kSlack || is_sharp(tet));
   }
 
   bool is_forced(Index tet) const {

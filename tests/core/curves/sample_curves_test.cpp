@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include "base/random.h"
 #include "curves/chains.h"
 #include "curves/curve_changes.h"
 #include "curves/length_field.h"
@@ -162,6 +165,47 @@ TEST_CASE("caps and floors of the length field") {
   CHECK(lengths.apply_caps().empty());
   CHECK(lengths.at({0, 0, 0}) == doctest::Approx(3));
   CHECK(lengths.at({1, 0, 0}) == doctest::Approx(2.5));
+}
+
+TEST_CASE("many caps and floors: the walk in the tree finds what asking each place finds") {
+  const Curves c(24, 4);
+  const Geometry geometry(c.plc, c.records);
+  Context context;
+  SizeOptions sizes;
+  sizes.max_size = 10;
+  sizes.elements_per_circle = sizes.elements_across = 0;
+  const SizeField field(c.plc, geometry, sizes, context);
+  constexpr double growth = 0.5;
+  for (const int floor_count : {0, 7}) {
+    LengthField lengths(field, 0.8);
+    std::vector<std::pair<Vec3, double>> caps, floors;
+    Random random(3, floor_count);
+    const auto place = [&] {
+      return Vec3{10 * random.symmetric(), 10 * random.symmetric(), 2 * random.symmetric()};
+    };
+    for (int i = 0; i < 200; ++i) {
+      caps.push_back({place(), 1 + std::abs(random.symmetric())});
+      lengths.add_cap(caps.back().first, caps.back().second);
+      if (i == 120) lengths.apply_caps();  // the tree is built again
+    }
+    for (int i = 0; i < floor_count; ++i) {
+      floors.push_back({place(), 3});
+      lengths.add_floor(floors.back().first, floors.back().second);
+    }
+    lengths.apply_caps();
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p = 1.5 * place();
+      double wanted = 8;
+      for (const auto& [at, value] : caps) wanted = std::min(wanted, value + growth * distance(at, p));
+      for (const auto& [at, value] : floors) wanted = std::max(wanted, value - growth * distance(at, p));
+      CHECK(lengths.at(p) == doctest::Approx(wanted));
+      const double low = 1 + 3 * std::abs(random.symmetric()), high = low + 1;
+      const double found = lengths.at_between(p, low, high);
+      if (wanted <= low) CHECK(found <= low);
+      if (wanted >= high) CHECK(found >= high);
+      if (low < wanted && wanted < high) CHECK(found == doctest::Approx(wanted));
+    }
+  }
 }
 
 namespace {
