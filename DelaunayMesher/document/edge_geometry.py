@@ -71,7 +71,8 @@ def curved_record(edge, curve):
     for candidate, start, end in spline_candidates(edge, curve, first, last):
         record = curve_record(candidate, start, end)
         ends = [candidate.value(start), candidate.value(end)]
-        if (ends[0] - samples[0]).Length > 1e-6 * scale or (ends[1] - samples[-1]).Length > 1e-6 * scale:
+        off = max((ends[0] - samples[0]).Length, (ends[1] - samples[-1]).Length)
+        if record is None or off > 1e-6 * scale:
             continue
         straight = line_through(record["poles"], 1e-10 * scale)
         if straight is not None:

@@ -9,6 +9,10 @@ import numpy as np
 
 from .tessellation import vectors_to_array
 
+WHOLE = 1e-9  # of a period
+SAME = 1e-9  # of the distance from the origin
+SAMPLES = 24
+
 
 def flat_knots(knots, multiplicities):
     """Knots repeated by their multiplicities."""
@@ -45,11 +49,16 @@ def surface_record(surface, ranges):
 
 
 def curve_record(curve, first, last):
-    """dict of the part [first, last] of a Part.BSplineCurve."""
-    curve = curve.copy()
+    """dict of the part [first, last] of a Part.BSplineCurve, or None if OCC cannot cut it out."""
+    given, curve = curve, curve.copy()
     if curve.isPeriodic():
+        start, end = curve.FirstParameter, curve.LastParameter
+        if last - first > (1.0 - WHOLE) * (end - start):
+            first, last = start, end  # asked for a hair less than the period, OCC gives a wrong curve
         curve.segment(first, last)
         first, last = curve.FirstParameter, curve.LastParameter
+        if not same_points(given, curve):
+            return None
     return {
         "degree": curve.Degree,
         "poles": vectors_to_array(curve.getPoles(), curve.NbPoles),
@@ -57,6 +66,17 @@ def curve_record(curve, first, last):
         "knots": flat_knots(curve.getKnots(), curve.getMultiplicities()),
         "range": (float(max(first, curve.FirstParameter)), float(min(last, curve.LastParameter))),
     }
+
+
+def same_points(curve, other):
+    """Whether two Part curves are the same within the range of the other, as far as some points tell."""
+    first, last = other.FirstParameter, other.LastParameter
+    for share in np.linspace(0.0, 1.0, SAMPLES).tolist():
+        parameter = first + share * (last - first)
+        point = curve.value(parameter)
+        if (point - other.value(parameter)).Length > SAME * (1.0 + point.Length):
+            return False
+    return True
 
 
 def plane_through(poles, tolerance):
