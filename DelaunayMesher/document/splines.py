@@ -35,8 +35,12 @@ def surface_record(surface, ranges):
     rational = surface.isURational() or surface.isVRational()
     bounds = surface.bounds()
     for first in (0, 2):
-        ranges[first] = max(ranges[first], bounds[first])
-        ranges[first + 1] = min(ranges[first + 1], bounds[first + 1])
+        low, high = bounds[first : first + 2]
+        beyond = max(low - ranges[first], ranges[first + 1] - high)
+        if beyond > WHOLE * (high - low):  # a closed surface, and the face straddles its ends
+            ranges[first : first + 2] = low, high
+        ranges[first] = max(ranges[first], low)
+        ranges[first + 1] = min(ranges[first + 1], high)
     return {
         "degree_u": surface.UDegree,
         "degree_v": surface.VDegree,
