@@ -15,6 +15,7 @@ import Part
 
 from ..errors import MeshError
 from ..polygons import plane_triangles
+from .cad_elements import INTERIOR
 
 NARROW = 1e-2  # width over length
 BEND = 0.3  # radians between two lines, about
@@ -119,18 +120,21 @@ def normal_sign(face, surface, across_u, across_v):
 
 
 def outline(face, lines):
-    """(nodes, their (u, v) as (n, 2), loops of places in both) of the wires of a face."""
+    """(nodes, their (u, v) as (n, 2), loops of places in both) of the outline of a face."""
     edges, nodes, places, loops = face.Edges, [], [], []
     for wire in face.Wires:
         first = len(nodes)
         pieces = []
         for edge in wire.SubShapes:  # a seam twice
+            if edge.Orientation in INTERIOR:
+                continue  # it bounds nothing
             own = next(number for number, other in enumerate(edges) if other.isSame(edge))
             pieces.append(edge_piece(face, edge, lines[own]))
         for line, run in end_to_end(pieces):
             nodes += line[:-1]
             places += run[:-1].tolist()
-        loops.append(list(range(first, len(nodes))))
+        if pieces:
+            loops.append(list(range(first, len(nodes))))
     return nodes, np.array(places), loops
 
 
@@ -148,6 +152,8 @@ def edge_piece(face, edge, line):
 
 def end_to_end(pieces):
     """Pieces of a closed outline in an order in which each starts where the one before ends in (u, v)."""
+    if not pieces:
+        return []
     extent = np.ptp(np.concatenate([run for _, run in pieces]), axis=0)
     ordered, left = [pieces[0]], list(pieces[1:])
     while left:

@@ -81,6 +81,9 @@ ROUND_FACES = {
     "cylinder with a hole": lambda: Part.makeCylinder(5, 20).cut(
         Part.makeCylinder(2, 20, Vector(0, 0, 10), Vector(1, 0, 0))
     ),
+    "cylinder with an edge inside": lambda: Part.makeCylinder(5, 20).generalFuse(
+        [Part.makeLine(Vector(0, 5, 5), Vector(0, 5, 15))], 1e-5
+    )[0],
     "reversed": lambda: Part.makeBox(20, 20, 20).cut(Part.makeSphere(6, Vector(10, 10, 10))),
 }
 
