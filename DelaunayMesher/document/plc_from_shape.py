@@ -25,6 +25,7 @@ WALL_SHARE = 0.1  # of the thickness of the thinnest solid
 SMALLEST_SHARE = 0.08  # of the smallest size that the user gives anywhere
 COARSEST, FINEST = 1.0 / 1250.0, 1.0 / 3000.0  # linear deflection over the diagonal; OCC is slow below
 ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
+OTHER = 0.1  # of a volume: more than facets change
 FLAT = 1e-14  # volume over the diagonal's cube: none but rounding
 # Tried in turn until the triangles close: (factor on the linear, factor on the angular deflection).
 ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (0.06, 4.0), (4.0, 1.6))
@@ -67,7 +68,7 @@ def convert(shape, options=None, keep=()):
             break
     best = min(tried, key=lambda mended: (mended.left, not mended.clean))
     mesh, sides, warnings = best.result(shape)
-    return outward_plc(mesh, sides, keep, warnings)
+    return outward_plc(mesh, sides, keep, warnings + volume_warnings(mesh, sides))
 
 
 def outward_plc(mesh, sides, keep, warnings):
@@ -115,6 +116,19 @@ class Mended:
             warnings.append("%s left out: %s" % (names, open_shape(shape, mesh, *self.still).message))
             sides = np.where(np.isin(sides, broken), 0, sides)
         return mesh, sides, warnings
+
+
+def volume_warnings(mesh, sides):
+    """What to know about solids whose triangles do not enclose the volume that the CAD program gives them."""
+    count = len(mesh.cad.solids)
+    volumes = np.abs(solid_volumes(mesh.points, mesh.triangles, sides[mesh.triangle_face], count))
+    return [
+        "%s: its triangles enclose %.4g mm3, but the CAD program says %.4g mm3: a face of it is broken "
+        "(Part: Check geometry)" % (entity_name(3, number), volume, wanted)
+        for number, volume, solid in zip(range(1, count + 1), volumes.tolist(), mesh.cad.solids)
+        for wanted in [abs(solid.Volume)]
+        if (sides == number).any() and abs(volume - wanted) > OTHER * wanted
+    ]
 
 
 def finer_for_walls(mesh, linear, angular):

@@ -15,7 +15,7 @@ from DelaunayMesher.document import tessellation
 from DelaunayMesher.document.cad_elements import CadElements
 from DelaunayMesher.document.closed import open_triangles, solid_volumes
 from DelaunayMesher.document.filling import fill
-from DelaunayMesher.document.plc_from_shape import convert, fault_of
+from DelaunayMesher.document.plc_from_shape import convert, fault_of, volume_warnings
 from DelaunayMesher.document.sewing import with_solids
 from DelaunayMesher.document.tessellation import tessellate
 from DelaunayMesher.errors import MeshError
@@ -260,3 +260,11 @@ def test_a_face_that_laps_itself_is_made_from_its_outline(monkeypatch):
             "OpenCASCADE left gaps in the triangles of Face%d; they were filled" % (number + 1)
         ]
         assert volume_of(rounded) == pytest.approx(rounded.Volume, rel=0.02)
+
+
+def test_a_volume_that_is_not_the_one_of_the_cad_program_is_said():
+    box = CadElements(Part.makeBox(10, 10, 10))
+    mesh = tessellate(box, 0.1, 0.3)
+    assert volume_warnings(mesh, box.sides) == []
+    (warning,) = volume_warnings(replace(mesh, points=0.9 * mesh.points), box.sides)
+    assert warning.startswith("Solid1: its triangles enclose 729 mm3, but the CAD program says 1000 mm3")
