@@ -146,7 +146,7 @@ def _recover(flat, opposite, a, b, segments):
     if (a, b) in opposite or (b, a) in opposite:
         return
     crossing = _crossed(flat, opposite, a, b)
-    tries = 0
+    tries, most = 0, 100 * (len(crossing) + 10) ** 2
     while crossing:
         p, q = crossing.pop(0)
         if (min(p, q), max(p, q)) in segments:
@@ -154,7 +154,7 @@ def _recover(flat, opposite, a, b, segments):
         r, s = opposite[p, q], opposite[q, p]
         convex = _turn(flat[r], flat[p], flat[s]) > 0 and _turn(flat[s], flat[q], flat[r]) > 0
         tries += 1
-        if tries > 100 * (len(crossing) + 10) ** 2:
+        if tries > most:
             raise _CrossingError(a)
         if not convex:
             crossing.append((p, q))

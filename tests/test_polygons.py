@@ -103,3 +103,17 @@ def test_a_hole_is_left_open_and_points_in_the_plane_stay():
     assert area_vector(points, triangles)[2] == pytest.approx(32)
     assert (triangles == 8).any()
     assert plane_triangles(points, [[0, 2, 1, 3]]) is None
+
+
+def test_a_segment_across_very_many_edges():
+    """One corner a hair off a straight side of many points: its triangles reach along all of them."""
+    count = 300
+    side = [[0.0, y, 0.0] for y in np.linspace(0, 29, count)]
+    points = np.array(
+        [*side, [0.07, 28.9, 0], [2, 28.8, 0], [2e-15, 29.4, 0], [0, 37, 0], [6, 37, 0], [6, 0, 0.0]]
+    )
+    triangles = triangulate_facet(points, [list(range(len(points)))])
+    assert len(triangles) == len(points) - 2
+    right = points[[0, count - 1, *range(count, len(points))]]  # the same outline
+    outline = np.cross(right, np.roll(right, -1, axis=0)).sum(axis=0) / 2
+    assert area_vector(points, triangles) == pytest.approx(outline)
