@@ -1,10 +1,10 @@
 """Triangulation of planar facets: polygons with holes, inner segments and loose points.
 
 The triangles only carry the surface to the mesher, which makes its own; what counts is that they fill the
-facet without a gap, use no new point and keep every given segment. Method: sweep over the
-points sorted by x (each is joined to the part of the hull that it sees), segments recovered by flipping what
-crosses them (Sloan 1993), outside and holes removed by flooding. Orientation tests are exact (fractions where
-doubles cannot tell). Cost: O(n * hull) points, fine for facets of some thousand points.
+facet without a gap, use no new point and keep every given segment. Method: sweep over the points sorted by x
+(each is joined to the part of the hull that it sees), segments recovered by flipping what crosses them (Sloan
+1993), the other edges flipped until Delaunay, outside and holes removed by flooding. Orientation tests are
+exact (fractions where doubles cannot tell). Cost: O(n * hull) points, fine for facets of some thousand points.
 """
 
 from fractions import Fraction

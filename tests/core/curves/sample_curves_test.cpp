@@ -145,15 +145,26 @@ TEST_CASE("nothing is inserted between frozen points, and unchanged edges keep t
       for (const Index p : before.segments[s]) CHECK(before.points[p] == after.points[changes.new_number(p)]);
 }
 
-TEST_CASE("caps and floors of the length field") {
-  const Curves c(24, 4);
-  const Geometry geometry(c.plc, c.records);
+namespace {
+
+struct TenEverywhere {
+  Curves curves{24, 4};
+  Geometry geometry{curves.plc, curves.records};
   Context context;
-  SizeOptions sizes;
-  sizes.max_size = 10;
-  sizes.elements_per_circle = sizes.elements_across = 0;
-  const SizeField field(c.plc, geometry, sizes, context);
-  LengthField lengths(field, 0.8);
+  SizeField size{curves.plc, geometry, options(), context};
+  static SizeOptions options() {
+    SizeOptions sizes;
+    sizes.max_size = 10;
+    sizes.elements_per_circle = sizes.elements_across = 0;
+    return sizes;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("caps and floors of the length field") {
+  const TenEverywhere field;
+  LengthField lengths(field.size, 0.8);
   CHECK(lengths.at({0, 0, 0}) == doctest::Approx(8));
   lengths.add_cap({0, 0, 0}, 1);
   lengths.add_cap({5, 0, 0}, 20);  // no effect
@@ -168,16 +179,10 @@ TEST_CASE("caps and floors of the length field") {
 }
 
 TEST_CASE("many caps and floors: the walk in the tree finds what asking each place finds") {
-  const Curves c(24, 4);
-  const Geometry geometry(c.plc, c.records);
-  Context context;
-  SizeOptions sizes;
-  sizes.max_size = 10;
-  sizes.elements_per_circle = sizes.elements_across = 0;
-  const SizeField field(c.plc, geometry, sizes, context);
+  const TenEverywhere field;
   constexpr double growth = 0.5;
   for (const int floor_count : {0, 7}) {
-    LengthField lengths(field, 0.8);
+    LengthField lengths(field.size, 0.8);
     std::vector<std::pair<Vec3, double>> caps, floors;
     Random random(3, floor_count);
     const auto place = [&] {
