@@ -20,7 +20,7 @@ from .cad_elements import INTERIOR
 NARROW = 1e-2  # width over length
 BEND = 0.3  # radians between two lines, about
 COVERED, ALMOST = 0.02, 0.05  # of a face's area: how far triangles may be off, OCC's and those made here
-LINES = 1000  # in each direction, at most
+MOST = 50_000  # crossings of lines: half a second
 SAMPLES = 400  # along each of a few lines, to see how they bend
 SHARES = (0.1, 0.3, 0.5, 0.7, 0.9)  # of the range: where these lines lie
 CLEAR = 0.35  # of the distance of two lines: how far points inside keep from the outline
@@ -28,14 +28,14 @@ STEPS = 16  # samples between two nodes of an edge
 
 
 def is_narrow(face, surface):
-    """Whether a face is a strip of a torus with one outline, which does not close around the torus."""
+    """Whether a face is a strip of a torus with one outline, known in (u, v), that does not go round it."""
     if not isinstance(surface, Part.Toroid) or len(face.Wires) != 1:
         return False
     u0, u1, v0, v1 = face.ParameterRange
     if max(u1 - u0, v1 - v0) > 1.9 * np.pi:
         return False
     lengths = torus_lengths(face, surface)
-    return min(lengths) < NARROW * max(lengths)
+    return min(lengths) < NARROW * max(lengths) and all(map(face.curveOnSurface, face.Edges))
 
 
 def torus_lengths(face, surface):
@@ -44,20 +44,23 @@ def torus_lengths(face, surface):
     return (u1 - u0) * (surface.MajorRadius + surface.MinorRadius), (v1 - v0) * surface.MinorRadius
 
 
-def covering_facets(face, surface, lines, facets):
-    """Facets with the area of the face if OCC's do not have it; None if OCC's cover it, or these do not.
+def covering_facets(face, surface, lines, facets, crossing):
+    """Facets with the area of the face where OCC's have another or cross; None if these have not, either.
 
-    lines: as for parametric_facets(); facets: OCC's (nodes, triangles).
+    lines: as for parametric_facets(); facets: OCC's (nodes, triangles); crossing: whether they cross.
     """
     area = face.Area
     off = abs(area_of(facets) - area)
-    if off <= COVERED * area:
+    if off <= COVERED * area and not crossing:
         return None
     try:
         better = parametric_facets(face, surface, lines, *bending_lines(face, surface))
-    except (MeshError, RuntimeError, ValueError, AttributeError):  # an outline that crosses itself, no curve
-        return None  # in (u, v), a kind of surface without a class
-    return better if abs(area_of(better) - area) < min(0.5 * off, ALMOST * area) else None
+    except MeshError:  # the outline crosses itself
+        return None
+    except (RuntimeError, TypeError, ValueError, AttributeError):  # an edge without a curve in (u, v), a kind
+        return None  # of surface that FreeCAD has no class for
+    left = abs(area_of(better) - area)
+    return better if left <= COVERED * area or left < min(0.5 * off, ALMOST * area) else None
 
 
 def strip_facets(face, surface, lines):
@@ -85,7 +88,7 @@ def parametric_facets(face, surface, lines, across_u, across_v):
 
     lines: the polyline of each edge of face.Edges, nodes from end to end; across_u, across_v: ascending
     parameters from one end of the face's range to the other, where the lines lie whose crossings become
-    nodes. Raises MeshError when the outline crosses itself in (u, v), RuntimeError when an edge has no curve
+    nodes. Raises MeshError when the outline crosses itself in (u, v), TypeError when an edge has no curve
     there.
     """
     nodes, places, loops = outline(face, lines)
@@ -94,7 +97,9 @@ def parametric_facets(face, surface, lines, across_u, across_v):
     nodes += [surface.value(across_u[i], across_v[j]) for i, j in inner.tolist()]
     flat = np.concatenate([apart, inner])
     single = [[number] for number in range(len(apart), len(flat))]
-    triangles = plane_triangles(np.column_stack([flat, np.zeros(len(flat))]), loops + single)
+    # The sweep of plane_triangles() goes along x: along the longer direction it leaves less to flip.
+    long, short = flat.T if len(across_u) > len(across_v) else flat.T[::-1]
+    triangles = plane_triangles(np.column_stack([long, short, np.zeros(len(flat))]), loops + single)
     if triangles is None:
         raise MeshError("plc", "bad_facet", "the outline of a face crosses itself in (u, v)")
     if signed_area(flat, triangles) * normal_sign(face, surface, across_u, across_v) < 0.0:
@@ -172,11 +177,12 @@ def along(edge, line):
     for nodes in (line, line[::-1]):
         points = np.array([(*node,) for node in nodes])
         even = np.interp(run_lengths(points), way, shares)
-        near = np.abs(shares[:, None] - even) <= 2.0 / len(line)
-        apart = np.where(near, np.linalg.norm(samples[:, None] - points, axis=2), np.inf)
-        found = shares[apart.argmin(axis=0)]
+        about = np.rint(even * (len(shares) - 1)).astype(int)
+        near = np.clip(about[:, None] + np.arange(-2 * STEPS, 2 * STEPS + 1), 0, len(shares) - 1)
+        apart = np.linalg.norm(samples[near] - points[:, None], axis=2)
+        found = shares[near[np.arange(len(near)), apart.argmin(axis=1)]]
         found[0], found[-1] = 0.0, 1.0
-        tries.append((apart.min(axis=0).max(), nodes, found if (np.diff(found) > 0.0).all() else even))
+        tries.append((apart.min(axis=1).max(), nodes, found if (np.diff(found) > 0.0).all() else even))
     _, nodes, found = min(tries, key=lambda attempt: attempt[0])
     return nodes, found
 
@@ -190,15 +196,17 @@ def run_lengths(points):
 
 def bending_lines(face, surface):
     """Ascending parameters (u, v) from end to end of a face's range, between which the surface turns by about
-    BEND along the other parameter's lines."""
+    BEND along the other parameter's lines, by more where there would be too many."""
     u0, u1, v0, v1 = face.ParameterRange
     along_u = [[(u, v0 + share * (v1 - v0)) for u in np.linspace(u0, u1, SAMPLES)] for share in SHARES]
     along_v = [[(u0 + share * (u1 - u0), v) for v in np.linspace(v0, v1, SAMPLES)] for share in SHARES]
-    return spread(surface, along_u, u0, u1), spread(surface, along_v, v0, v1)
+    turns_u, turns_v = turns(surface, along_u), turns(surface, along_v)
+    bend = max(BEND, np.sqrt(turns_u[-1] * turns_v[-1] / MOST))
+    return spread(turns_u, bend, u0, u1), spread(turns_v, bend, v0, v1)
 
 
-def spread(surface, walks, low, high):
-    """Ascending parameters from low to high, a turn of BEND apart on the walk that turns most there."""
+def turns(surface, walks):
+    """(SAMPLES,) by how much (rad) the walk that turns most at each place has turned up to there."""
     turn = np.zeros(SAMPLES)
     for walk in walks:
         points = np.array([(*surface.value(float(u), float(v)),) for u, v in walk])
@@ -206,10 +214,13 @@ def spread(surface, walks, low, high):
         steps /= np.maximum(np.linalg.norm(steps, axis=1), 1e-300)[:, None]
         cosines = np.clip((steps[:-1] * steps[1:]).sum(axis=1), -1.0, 1.0)
         turn[1:-1] = np.maximum(turn[1:-1], np.arccos(cosines))
-    total = np.cumsum(turn)
-    count = min(int(total[-1] / BEND), LINES) + 2
-    run = total + 1e-6 * (total[-1] + BEND) * np.arange(SAMPLES)  # strictly ascending
-    wanted = np.linspace(run[0], run[-1], count)
+    return np.cumsum(turn)
+
+
+def spread(turned, bend, low, high):
+    """Ascending parameters from low to high, a turn of `bend` apart; see turns()."""
+    run = turned + 1e-6 * (turned[-1] + bend) * np.arange(SAMPLES)  # strictly ascending
+    wanted = np.linspace(run[0], run[-1], int(turned[-1] / bend) + 2)
     return np.interp(wanted, run, np.linspace(low, high, SAMPLES))
 
 

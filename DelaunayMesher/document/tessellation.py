@@ -54,16 +54,18 @@ def tessellate(cad, linear, angular):
     facets = face_facets(cad, narrow, lines)
     mesh = gathered(cad, lines, facets)
     creased = creased_faces(mesh, (SMALL * linear) ** 2)
-    better = {face: covering(cad, face, lines, facets[face]) for face in creased}
+    better = {face: covering(mesh, face, lines, facets[face]) for face in creased}
     if any(better.values()):
         mesh = gathered(cad, lines, [better.get(face) or old for face, old in enumerate(facets)])
     return without_laps(mesh)
 
 
-def covering(cad, face, lines, facets):
-    """Facets of a face of CadElements where OCC's do not cover it, or None; see covering_facets()."""
+def covering(mesh, face, lines, facets):
+    """Facets of a face of a Tessellation where OCC's do not cover it or cross, or None."""
+    cad = mesh.cad
     mine = [lines[edge] for edge in cad.face_edges[face]]
-    return covering_facets(cad.faces[face], cad.surfaces[face], mine, facets)
+    crossing = laps_itself(mesh.points, mesh.triangles[mesh.triangle_face == face])
+    return covering_facets(cad.faces[face], cad.surfaces[face], mine, facets, crossing)
 
 
 def creased_faces(mesh, small):
