@@ -110,7 +110,8 @@ def parametric_facets(face, surface, lines, across_u, across_v):
 def signed_area(flat, triangles):
     """Area of triangles in the plane, positive when they turn to the left."""
     a, b, c = (flat[triangles[:, k]] for k in range(3))
-    return float((np.cross(b - a, c - a)).sum())
+    (bu, bv), (cu, cv) = (b - a).T, (c - a).T
+    return 0.5 * float((bu * cv - bv * cu).sum())
 
 
 def normal_sign(face, surface, across_u, across_v):
@@ -130,11 +131,13 @@ def outline(face, lines):
     for wire in face.Wires:
         first = len(nodes)
         pieces = []
-        for edge in wire.SubShapes:  # a seam twice
+        for edge in wire.Edges:
             if edge.Orientation in INTERIOR:
                 continue  # it bounds nothing
             own = next(number for number, other in enumerate(edges) if other.isSame(edge))
             pieces.append(edge_piece(face, edge, lines[own]))
+            if not edge.Degenerated and edge.isSeam(face):
+                pieces.append(edge_piece(face, edge.reversed(), lines[own]))
         for line, run in end_to_end(pieces):
             nodes += line[:-1]
             places += run[:-1].tolist()
