@@ -154,18 +154,26 @@ def _recover(flat, opposite, a, b, segments):
         if (min(p, q), max(p, q)) in segments:
             raise _CrossingError(a)
         r, s = opposite[p, q], opposite[q, p]
-        convex = _turn(flat[r], flat[p], flat[s]) > 0 and _turn(flat[s], flat[q], flat[r]) > 0
         tries += 1
         if tries > most:
             raise _CrossingError(a)
-        if not convex:
+        if not _flip(flat, opposite, p, q):
             crossing.append((p, q))
             continue
-        del opposite[p, q], opposite[q, p]
-        _add(opposite, r, p, s)
-        _add(opposite, s, q, r)
         if not {r, s} & {a, b} and _turn(flat[a], flat[b], flat[r]) * _turn(flat[a], flat[b], flat[s]) < 0:
             crossing.append((r, s))
+
+
+def _flip(flat, opposite, p, q):
+    """Whether the two triangles beside the edge p, q make a convex quadrangle; if so, its other diagonal
+    replaces the edge."""
+    r, s = opposite[p, q], opposite[q, p]
+    if not (_turn(flat[r], flat[p], flat[s]) > 0 and _turn(flat[s], flat[q], flat[r]) > 0):
+        return False
+    del opposite[p, q], opposite[q, p]
+    _add(opposite, r, p, s)
+    _add(opposite, s, q, r)
+    return True
 
 
 def _crossed(flat, opposite, a, b):
@@ -197,12 +205,7 @@ def _flip_to_delaunay(flat, opposite, segments):
         r, s = opposite.get((p, q)), opposite.get((q, p))
         if r is None or s is None or (min(p, q), max(p, q)) in segments:
             continue
-        if not _in_circle(flat[p], flat[q], flat[r], flat[s]):
-            continue
-        if _turn(flat[r], flat[p], flat[s]) > 0 and _turn(flat[s], flat[q], flat[r]) > 0:
-            del opposite[p, q], opposite[q, p]
-            _add(opposite, r, p, s)
-            _add(opposite, s, q, r)
+        if _in_circle(flat[p], flat[q], flat[r], flat[s]) and _flip(flat, opposite, p, q):
             waiting += [(p, s), (s, q), (q, r), (r, p)]
 
 
