@@ -17,9 +17,10 @@ PACKAGES=(
 )
 WANTED=(calculix-ccx) # not in Debian 13
 
-is_installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'install ok installed'; }
+is_installed() { [ "$(dpkg-query -W -f='${Status}' "$1" 2>/dev/null)" = "install ok installed" ]; }
 
-is_available() { LC_ALL=C apt-cache policy "$1" | grep -q 'Candidate: [^(]'; }
+# Not piped into grep -q: that stops reading at its first match, and under pipefail the broken pipe counts as a failure.
+is_available() { [[ $(LC_ALL=C apt-cache policy "$1") =~ Candidate:\ [^\(] ]]; }
 
 install_packages() {
   local missing=()
