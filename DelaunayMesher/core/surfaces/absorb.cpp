@@ -1,6 +1,7 @@
 #include "surfaces/absorb.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -19,6 +20,7 @@ constexpr double kFlat = 0.001;         // height of a triangle that has become 
 constexpr int kMostFlips = 8;           // per triangle that would turn over
 constexpr double kAcute = 0.5;          // angle between faces that may come to meet, radians
 constexpr double kNarrowed = 0.7;       // that of faces that met before, over what it was
+constexpr double kInnocent = 0.2;       // width of what has no part in a fault, over the widest that has
 
 // Points that become one, with the box round them.
 class Clusters {
@@ -61,17 +63,22 @@ class Absorber {
   Plc run(Absorbed& absorbed) {
     if (features_.empty()) return given_;
     active_.assign(features_.size(), 1);
+    for (const SmallFeature& feature : features_) {
+      width_.push_back(0);
+      for (const auto& [p, q] : feature)
+        width_.back() = std::max(width_.back(), distance(plc_.points[p], plc_.points[q]));
+    }
     rank_points();
     do {
       if (std::find(active_.begin(), active_.end(), 1) == active_.end()) return given_;
       join_points();
       make_triangles();
       turn_back();
-      bad_.assign(plc_.points.size(), 0);
+      faults_.clear();
       check_normals();
       check_edges();
-      if (!any_bad()) check_crossings();
-    } while (reject_bad());
+      if (faults_.empty() && refused_.empty()) check_crossings();
+    } while (reject());
     Plc result = make_plc();
     try {
       check_plc(result);
@@ -225,10 +232,12 @@ class Absorber {
 
   bool moved(std::size_t t) const { return triangles_[t] != plc_.triangles[source_[t]]; }
   Index face(std::size_t t) const { return plc_.triangle_face[source_[t]]; }
-  void blame(std::size_t t) {
-    for (const Index p : triangles_[t]) bad_[p] |= joined_[p];
+  void blame(std::initializer_list<std::size_t> triangles) {
+    faults_.emplace_back();
+    for (const std::size_t t : triangles)
+      for (const Index p : triangles_[t])
+        if (joined_[p]) faults_.back().push_back(p);
   }
-  bool any_bad() const { return std::find(bad_.begin(), bad_.end(), 1) != bad_.end() || !refused_.empty(); }
 
   Vec3 normal(const Triangle& v) const {
     return area_vector(plc_.points[v[0]], plc_.points[v[1]], plc_.points[v[2]]);
@@ -236,7 +245,7 @@ class Absorber {
 
   void check_normals() {
     for (std::size_t t = 0; t < triangles_.size(); ++t)
-      if (moved(t) && is_turned(triangles_[t], before_[t])) blame(t);
+      if (moved(t) && is_turned(triangles_[t], before_[t])) blame({t});
   }
 
   struct Side {
@@ -262,7 +271,7 @@ class Absorber {
       const bool segment = is_segment(sides[i].a, sides[i].b);
       const bool smooth = j - i == 2 && face(sides[i].triangle) == face(sides[i + 1].triangle) &&
                           sides[i].forward != sides[i + 1].forward;
-      if (!segment && !smooth) blame(sides[i].triangle);
+      if (!segment && !smooth) blame({sides[i].triangle});
       for (std::size_t k = i; k < j; ++k)
         for (std::size_t l = k + 1; l < j; ++l)
           check_pair(sides[i].a, sides[i].b, sides[k].triangle, sides[l].triangle);
@@ -279,7 +288,7 @@ class Absorber {
     const bool was_acute = shared.size() == 2 &&
                            angle > kNarrowed * angle_between(shared[0], shared[1], plc_.triangles[source_[s]],
                                                              plc_.triangles[source_[t]]);
-    if (!was_acute) blame(s), blame(t);
+    if (!was_acute) blame({s, t});
   }
 
   // In radians, on both sides of the edge (a, b).
@@ -303,23 +312,39 @@ class Absorber {
       looked = true;
       const std::array<Index, 2> pair{std::min(source_[s], source_[t]), std::max(source_[s], source_[t])};
       if (std::binary_search(before.begin(), before.end(), pair)) continue;
-      blame(s);
-      blame(t);
+      blame({static_cast<std::size_t>(s), static_cast<std::size_t>(t)});
     }
   }
 
-  // Features with a part in what is wrong stay.  True if there are any.
-  bool reject_bad() {
+  // Features with a part in a fault stay, but for those far narrower than others of it: they hardly move
+  // anything.  True if there are any.
+  bool reject() {
     bool changed = !refused_.empty();
     for (const Index k : refused_) active_[k] = 0;
     refused_.clear();
-    for (std::size_t k = 0; k < features_.size(); ++k)
-      for (const auto& [p, q] : features_[k]) {
-        if (!active_[k] || !bad_[to_[p]]) continue;
-        active_[k] = 0;
-        changed = true;
-      }
+    std::vector<double> widest(plc_.points.size(), 0);  // by point that stays: of the features that joined it
+    for_active(
+        [&](std::size_t, Index point, double width) { widest[point] = std::max(widest[point], width); });
+    std::vector<double> limit(plc_.points.size(), HUGE_VAL);  // features of this width stay
+    for (const std::vector<Index>& fault : faults_) {
+      double most = 0;
+      for (const Index p : fault) most = std::max(most, widest[p]);
+      for (const Index p : fault) limit[p] = std::min(limit[p], kInnocent * most);
+    }
+    for_active([&](std::size_t k, Index point, double width) {
+      if (width < limit[point]) return;
+      active_[k] = 0;
+      changed = true;
+    });
     return changed;
+  }
+
+  // Calls `visit` with each active feature and each point that it has joined.
+  template <class Visit>
+  void for_active(Visit visit) {
+    for (std::size_t k = 0; k < features_.size(); ++k)
+      for (const auto& [p, q] : features_[k])
+        if (active_[k]) visit(k, to_[p], width_[k]);
   }
 
   Plc make_plc() const {
@@ -390,12 +415,13 @@ class Absorber {
   Plc plc_;  // with divided segments
   const Tolerance& tolerance_;
   std::vector<SmallFeature> features_;
-  std::vector<char> active_;    // by feature
-  std::vector<Index> rank_;     // by point
-  std::vector<Index> to_;       // by point: the one that it becomes
-  std::vector<char> joined_;    // by point: it has become, or others have become it
-  std::vector<char> bad_;       // by point that stays: may not be joined as it was
-  std::vector<Index> refused_;  // features
+  std::vector<double> width_;               // by feature
+  std::vector<char> active_;                // by feature
+  std::vector<Index> rank_;                 // by point
+  std::vector<Index> to_;                   // by point: the one that it becomes
+  std::vector<char> joined_;                // by point: it has become, or others have become it
+  std::vector<std::vector<Index>> faults_;  // of each the points that stay, and may not all be joined so
+  std::vector<Index> refused_;              // features
   std::vector<Triangle> triangles_;
   std::vector<Index> source_;                      // of triangles_, in plc_
   std::vector<Vec3> before_;                       // of triangles_: twice the area vector that they had

@@ -8,7 +8,8 @@
 //
 // Nothing is absorbed where that would do harm: where a triangle would turn over, coincide with or cross
 // another, or two faces come to meet at an acute angle (the rim of a thin plate, the floor of a slit), nor a
-// face or edge that a load refers to.  What is rejected at one place is kept whole.
+// face or edge that a load refers to.  What is rejected at one place is kept whole; so is what else has a
+// part in it, unless it is far narrower.
 //
 // Precondition: check_plc.  Postcondition: check_plc; points keep their numbers, new ones follow; CAD
 // elements that are gone are reported and have no triangles, segments or corners any more.

@@ -13,6 +13,7 @@ constexpr double kFacing = 1.2;  // distance of a point that faces another, over
 constexpr double kCorner = 2;    // ... from where two curves meet: 30 degrees
 constexpr double kTip = 6;       // ... in a tip: 10 degrees
 constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
+constexpr double kBulging = 6;   // ... between two curves that are nearer to each other than it
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
 constexpr double kBeside = 2;    // tolerances from a vertex of the other curve, which faces this one as well
@@ -196,6 +197,9 @@ class Finder {
         Vec3 place;
         narrow = is_short(a, b) || passes(a, b, p, place);
       }
+      // Its corners may face no segment of each other, though.
+      narrow = narrow || (height(v[0], v[1], v[2]) < kBulging * tolerance_(at(v[0])) &&
+                          strip_of({v[0], v[1], v[2], v[2]}).width > 0);
     }
     for (const Tip& tip : tips_) found[tip.face] = 1;
     std::vector<Index> faces;
@@ -302,22 +306,78 @@ class Finder {
     }
   }
 
-  bool may_flip(Index a, Index b, Index c) const {
-    return height(a, b, c) <= kThin * tolerance_(at(a)) || sharp_.contains(a) || sharp_.contains(b) ||
+  bool may_flip(Index a, Index b, Index c, double heights) const {
+    return height(a, b, c) <= heights * tolerance_(at(a)) || sharp_.contains(a) || sharp_.contains(b) ||
            sharp_.contains(c);
   }
 
-  // Of the triangles (a, b, c) and (b, a, d): both thin or in the fan round a tip, the angles
-  // at c and d over 180 degrees together, and the new ones facing as the old.
+  using Quad = std::array<Vec3, 4>;
+
+  // Of the triangles (a, b, c) and (b, a, d): both thin or in the fan round a tip, the new ones facing as the
+  // old, and better: the angles at c and d over 180 degrees together, or across a strip the shorter side.
   bool wants_flip(Index a, Index b, Index c, Index d) const {
-    if (c == d || !may_flip(a, b, c) || !may_flip(b, a, d)) return false;
-    const Vec3 n1 = editor_.area({a, b, c}), n2 = editor_.area({b, a, d});
-    const Vec3 m1 = editor_.area({c, a, d}), m2 = editor_.area({d, b, c});
+    if (c == d || editor_.has_side(c, d)) return false;
+    if (!may_flip(a, b, c, kBulging) || !may_flip(b, a, d, kBulging)) return false;
+    const Strip strip = strip_of({a, b, c, d});
+    const bool in_strip = strip.width > 0;
+    if (!in_strip && !(may_flip(a, b, c, kThin) && may_flip(b, a, d, kThin))) return false;
+    const Quad real{at(a), at(b), at(c), at(d)};
+    const auto& [pa, pb, pc, pd] = in_strip ? unrolled({a, b, c, d}, strip) : real;
+    const Vec3 n1 = area_vector(pa, pb, pc), n2 = area_vector(pb, pa, pd);
+    const Vec3 m1 = area_vector(pc, pa, pd), m2 = area_vector(pd, pb, pc);
     const Vec3 n = n1 + n2;
-    if (!(dot(m1, n) > 0 && dot(m2, n) > 0) || editor_.has_side(c, d)) return false;
+    if (!(dot(m1, n) > 0 && dot(m2, n) > 0)) return false;
+    if (in_strip) return norm2(real[2] - real[3]) < (1 - kFlipMargin) * norm2(real[0] - real[1]);
     const double s1 = norm(n1), s2 = norm(n2);
-    const double d1 = dot(at(a) - at(c), at(b) - at(c)), d2 = dot(at(a) - at(d), at(b) - at(d));
+    const double d1 = dot(pa - pc, pb - pc), d2 = dot(pa - pd, pb - pd);
     return s1 * d2 + s2 * d1 < -kFlipMargin * (std::abs(s1 * d2) + std::abs(s2 * d1));
+  }
+
+  // Two curves nearer to each other than the tolerance; none if the width is 0.
+  struct Strip {
+    Index one = -1, other = -1;
+    double width = 0;
+  };
+
+  // The strip that has all these points on its two curves.
+  Strip strip_of(const std::array<Index, 4>& points) const {
+    for (const Index p : points)
+      for (const Index one : editor_.edges_of(p))
+        for (const Index q : points)
+          for (const Index other : editor_.edges_of(q))
+            if (const double width = width_between(one, other, points); width > 0) return {one, other, width};
+    return {};
+  }
+
+  // Largest exact distance of the points of one curve from the other; 0 where a point is on neither, or
+  // further away than the tolerance.
+  double width_between(Index one, Index other, const std::array<Index, 4>& points) const {
+    if (one >= other) return 0;
+    double width = 0;
+    for (const Index p : points) {
+      const bool on_one = editor_.is_on(p, one), on_other = editor_.is_on(p, other);
+      if (!on_one && !on_other) return 0;
+      if (on_one && on_other) continue;
+      const double w = distance(at(p), geometry_.project_to_edge(on_one ? other : one, at(p)));
+      if (w > tolerance_(at(p))) return 0;
+      width = std::max(width, w);
+    }
+    return width;
+  }
+
+  // Places along a strip and across it.  In space triangles between two curves that are nearer to each other
+  // than their segments bulge lie over one another.
+  Quad unrolled(const std::array<Index, 4>& points, const Strip& strip) const {
+    Vec3 along;
+    for (const Index p : points)
+      if (const Vec3 d = at(p) - at(points[0]); norm2(d) > norm2(along)) along = d;
+    Quad flat;
+    for (int i = 0; i < 4; ++i) {
+      const double side =
+          1.0 * editor_.is_on(points[i], strip.other) - 1.0 * editor_.is_on(points[i], strip.one);
+      flat[i] = {dot(at(points[i]) - at(points[0]), along) / norm(along), 0.5 * side * strip.width, 0.0};
+    }
+    return flat;
   }
 
   // The short sides, by sets of triangles that hang together.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shapes.h"
+#include "surfaces/crossings.h"
 #include "surfaces/remesh.h"
 
 using namespace dm;
@@ -43,15 +44,16 @@ Shape stepped_block(double step) {
   return prism({{10, 10 - step}, {10, 10}, {0, 10}, {0, 0}, {20, 0}, {20, 10 - step}}, 20);
 }
 
-// A cylinder with its upper rim chamfered, the points of the two circles staggered.
-Shape chamfered_cylinder(double radius, double height, double chamfer, int n) {
+// A cylinder with its upper rim chamfered, the points of the two circles staggered; or with several points
+// on the upper one for each segment of the lower one, all in triangles with its first point.
+Shape chamfered_cylinder(double radius, double height, double chamfer, int n, int per_segment = 1) {
   Shape s;
   const Vec3 z{0, 0, 1};
   const double r = radius - chamfer, h = height - chamfer;
   const auto low = shapes::circle(radius, 0, n), middle = shapes::circle(radius, h, n);
-  auto high = shapes::circle(r, height, n);
+  auto high = shapes::circle(r, height, n * per_segment);
   for (Vec3& p : high) {
-    const double a = std::atan2(p.y, p.x) + std::numbers::pi / n;
+    const double a = std::atan2(p.y, p.x) + (per_segment == 1 ? std::numbers::pi / n : 0);
     p = {r * std::cos(a), r * std::sin(a), height};
   }
   high.back() = high.front();
@@ -60,11 +62,13 @@ Shape chamfered_cylinder(double radius, double height, double chamfer, int n) {
               floor = s.face(shapes::plane({}, -z), 1), roof = s.face(shapes::plane({0, 0, height}, z), 1);
   for (int i = 0; i < n; ++i) {
     s.quad(wall, low[i], low[i + 1], middle[i + 1], middle[i]);
-    s.triangle(cone, middle[i], middle[i + 1], high[i]);
-    s.triangle(cone, high[i], middle[i + 1], high[i + 1]);
-    if (i == 0 || i + 1 == n) continue;
     s.triangle(floor, low[0], low[i + 1], low[i]);
-    s.triangle(roof, high[0], high[i], high[i + 1]);
+    const int first = i * per_segment, last = first + per_segment;
+    for (int k = first; k < last; ++k) {
+      s.triangle(cone, middle[i], high[k + 1], high[k]);
+      s.triangle(roof, high[0], high[k], high[k + 1]);
+    }
+    s.triangle(cone, middle[i], middle[i + 1], high[last]);
   }
   s.edge({CurveKind::circle, {}, z, radius, -1}, low);
   s.edge({CurveKind::circle, {0, 0, h}, z, radius, -1}, middle);
@@ -236,6 +240,25 @@ TEST_CASE("a narrow ring whose points do not face each other") {
   CHECK(r.absorbed.faces == std::vector<Index>{1});
   CHECK(r.absorbed.edges == std::vector<Index>{2});
   CHECK(r.smallest_angle > 25);
+}
+
+TEST_CASE(
+    "a ring far narrower than its segments bulge, with points that face others than their triangles say") {
+  for (const double chamfer : {0.02, 1e-3, 1e-5})
+    for (const int per_segment : {2, 3, 4}) {
+      const Result r(chamfered_cylinder(10, 20, chamfer, 24, per_segment), 3);
+      CHECK(r.absorbed.faces == std::vector<Index>{1});
+      CHECK(r.absorbed.edges == std::vector<Index>{2});
+      CHECK(r.smallest_angle > 20);
+      CHECK(find_crossings(r.mesh.points, r.mesh.triangles).empty());
+    }
+}
+
+TEST_CASE("a step across a thin plate is absorbed though the rim of the plate stays") {
+  const Result r(prism({{10, 0.05 - 1e-4}, {10, 0.05}, {0, 0.05}, {0, 0}, {20, 0}, {20, 0.05 - 1e-4}}, 20),
+                 10);
+  CHECK(r.absorbed.faces == std::vector<Index>{0});
+  CHECK(r.absorbed.vertices.size() == 2);
 }
 
 TEST_CASE("a narrow ring with points closer together than the tolerance") {
