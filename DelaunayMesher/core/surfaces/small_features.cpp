@@ -339,20 +339,25 @@ class Finder {
     double width = 0;
   };
 
-  // The strip that has all these points on its two curves.
+  // The strip that has all these points on its two curves: one of them is a curve of the point with the
+  // fewest, as hundreds may meet at a vertex.
   Strip strip_of(const std::array<Index, 4>& points) const {
-    for (const Index p : points)
-      for (const Index one : editor_.edges_of(p))
-        for (const Index q : points)
-          for (const Index other : editor_.edges_of(q))
-            if (const double width = width_between(one, other, points); width > 0) return {one, other, width};
+    const auto fewer = [&](Index p, Index q) {
+      return editor_.edges_of(p).size() < editor_.edges_of(q).size();
+    };
+    for (const Index one : editor_.edges_of(*std::min_element(points.begin(), points.end(), fewer))) {
+      const auto is_off = [&](Index p) { return !editor_.is_on(p, one); };
+      const auto across = std::find_if(points.begin(), points.end(), is_off);
+      if (across == points.end()) continue;
+      for (const Index other : editor_.edges_of(*across))
+        if (const double width = width_between(one, other, points); width > 0) return {one, other, width};
+    }
     return {};
   }
 
   // Largest exact distance of the points of one curve from the other; 0 where a point is on neither, or
   // further away than the tolerance.
   double width_between(Index one, Index other, const std::array<Index, 4>& points) const {
-    if (one >= other) return 0;
     double width = 0;
     for (const Index p : points) {
       const bool on_one = editor_.is_on(p, one), on_other = editor_.is_on(p, other);
