@@ -63,11 +63,7 @@ class Absorber {
   Plc run(Absorbed& absorbed) {
     if (features_.empty()) return given_;
     active_.assign(features_.size(), 1);
-    for (const SmallFeature& feature : features_) {
-      width_.push_back(0);
-      for (const auto& [p, q] : feature)
-        width_.back() = std::max(width_.back(), distance(plc_.points[p], plc_.points[q]));
-    }
+    for (const SmallFeature& feature : features_) width_.push_back(width_of(feature, plc_.points));
     rank_points();
     do {
       if (std::find(active_.begin(), active_.end(), 1) == active_.end()) return given_;

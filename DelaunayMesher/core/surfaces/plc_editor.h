@@ -39,7 +39,6 @@ class PlcEditor {
   bool has_side(Index a, Index b) const { return half_.contains({a, b}) || half_.contains({b, a}); }
   Index left_of(const Segment& side) const;  // triangle, -1 = none
   Index apex(Index t, const Segment& ends) const;
-  Vec3 area(const Triangle& v) const { return area_vector(at(v[0]), at(v[1]), at(v[2])); }
 
   // Divides a segment and all its triangles at a place, for the sake of the face at hand; the new point.
   Index divide(Index segment, const Vec3& place, Index face);
@@ -55,6 +54,7 @@ class PlcEditor {
   void finish();
 
  private:
+  Vec3 area(const Triangle& v) const { return area_vector(at(v[0]), at(v[1]), at(v[2])); }
   bool has(Index t, Index p) const;
   bool is_tracked(Index p, Index t) const { return on_curve(p) || edited_[plc_.triangle_face[t]]; }
   void replace(Index t, const Triangle& v);

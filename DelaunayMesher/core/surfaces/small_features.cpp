@@ -46,8 +46,9 @@ class Finder {
     for (const Index f : faces)
       if (load(f)) collect_features(f);
     editor_.finish();
-    std::stable_sort(found_.begin(), found_.end(),
-                     [&](const SmallFeature& a, const SmallFeature& b) { return width(a) < width(b); });
+    std::stable_sort(found_.begin(), found_.end(), [&](const SmallFeature& a, const SmallFeature& b) {
+      return width_of(a, plc_.points) < width_of(b, plc_.points);
+    });
     return std::move(found_);
   }
 
@@ -62,12 +63,6 @@ class Finder {
         const Index s = editor_.segment(a, b);
         if (s >= 0) kept_edge_[plc_.segment_edge[s]] = 1;
       }
-  }
-
-  double width(const SmallFeature& feature) const {
-    double most = 0;
-    for (const auto& [p, q] : feature) most = std::max(most, distance(at(p), at(q)));
-    return most;
   }
 
   void collect_edges() {
@@ -428,7 +423,7 @@ class Finder {
 
   // Part of a face ends where it is as wide as the tolerance; the step that this leaves must be worth it.
   bool is_narrow(const SmallFeature& feature) const {
-    return width(feature) < kPart * tolerance_(at(feature[0].first));
+    return width_of(feature, plc_.points) < kPart * tolerance_(at(feature[0].first));
   }
 
   Plc& plc_;
@@ -445,6 +440,12 @@ class Finder {
 };
 
 }  // namespace
+
+double width_of(const SmallFeature& feature, const std::vector<Vec3>& points) {
+  double most = 0;
+  for (const auto& [p, q] : feature) most = std::max(most, distance(points[p], points[q]));
+  return most;
+}
 
 std::vector<SmallFeature> find_small_features(Plc& plc, const Geometry& geometry,
                                               const Tolerance& tolerance) {

@@ -23,6 +23,9 @@ using Tolerance = std::function<double(const Vec3&)>;  // mm, at a place
 
 using SmallFeature = std::vector<std::pair<Index, Index>>;  // points that become one
 
+// Largest distance of points that become one (mm).
+double width_of(const SmallFeature& feature, const std::vector<Vec3>& points);
+
 // Narrowest first.  Segments of the PLC may be divided, triangles at narrow places flipped, and points of the
 // tessellation inside a face left out near its curves.
 std::vector<SmallFeature> find_small_features(Plc& plc, const Geometry& geometry, const Tolerance& tolerance);
