@@ -131,13 +131,11 @@ def outline(face, lines):
     for wire in face.Wires:
         first = len(nodes)
         pieces = []
-        for edge in wire.Edges:
+        for edge in wire.childShapes():  # unlike wire.Edges it has a seam twice, if the wire does
             if edge.Orientation in INTERIOR:
                 continue  # it bounds nothing
             own = next(number for number, other in enumerate(edges) if other.isSame(edge))
             pieces.append(edge_piece(face, edge, lines[own]))
-            if not edge.Degenerated and edge.isSeam(face):
-                pieces.append(edge_piece(face, edge.reversed(), lines[own]))
         for line, run in end_to_end(pieces):
             nodes += line[:-1]
             places += run[:-1].tolist()

@@ -13,6 +13,7 @@ import numpy as np
 import Part
 
 from .. import extension
+from ..errors import MeshError
 from ..merge_points import merge_points
 from .cad_elements import CadElements
 from .closed import open_triangles
@@ -51,7 +52,7 @@ def tessellate(cad, linear, angular):
         wide = Part.Compound([face for number, face in enumerate(cad.faces) if number not in narrow])
     MeshPart.meshFromShape(Shape=wide, LinearDeflection=linear, AngularDeflection=angular, Relative=False)
     lines = edge_lines(cad, narrow, linear)
-    facets = face_facets(cad, narrow, lines)
+    facets = face_facets(cad, narrow, lines, linear, angular)
     mesh = gathered(cad, lines, facets)
     creased = creased_faces(mesh, (SMALL * linear) ** 2)
     better = {face: covering(mesh, face, lines, facets[face]) for face in creased}
@@ -179,16 +180,25 @@ def edge_lines(cad, without, linear):
     return lines
 
 
-def face_facets(cad, narrow, lines):
+def face_facets(cad, narrow, lines, linear, angular):
     """Per face (list of vectors, list of triangles as tuples of places in it)."""
     facets = []
     for number, (face, surface) in enumerate(zip(cad.faces, cad.surfaces)):
         mine = [lines[edge] for edge in cad.face_edges[number]]
         if number in narrow:
-            facets.append(strip_facets(face, surface, mine))
+            facets.append(narrow_facets(face, surface, mine, linear, angular))
         else:
             facets.append(face.getFacesFromSubElement("Face", 1))
     return facets
+
+
+def narrow_facets(face, surface, lines, linear, angular):
+    """(nodes, triangles) of a narrow strip: our own, or OCC's where its outline crosses itself in (u, v)."""
+    try:
+        return strip_facets(face, surface, lines)
+    except MeshError:
+        MeshPart.meshFromShape(Shape=face, LinearDeflection=linear, AngularDeflection=angular, Relative=False)
+        return face.getFacesFromSubElement("Face", 1)
 
 
 def gather_segments(counts, nodes):

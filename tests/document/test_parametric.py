@@ -7,9 +7,11 @@ import pytest
 from FreeCAD import Vector
 
 from DelaunayMesher import pipeline
+from DelaunayMesher.document import parametric
 from DelaunayMesher.document.closed import solid_volumes
 from DelaunayMesher.document.parametric import area_of, bending_lines, is_narrow, parametric_facets
 from DelaunayMesher.document.plc_from_shape import convert
+from DelaunayMesher.errors import MeshError
 
 
 @pytest.mark.parametrize("reversed_strip", [False, True])
@@ -72,6 +74,37 @@ def test_a_spring_with_a_fillet_meshes_well():
     assert mesh.report()["quality"]["min_dihedral"] > 25
 
 
+QUARTER = Part.makeBox(200, 200, 40, Vector(0, -200, -20))
+
+
+@pytest.mark.parametrize("angle, keep_quarter", [(10, True), (-20, False)])
+def test_the_narrow_fillet_of_a_disc_that_was_cut(angle, keep_quarter):
+    disc = Part.makeCylinder(120, 5)
+    rounded = disc.makeFillet(1, [disc.Edges[0]])
+    tool = QUARTER.copy()
+    tool.rotate(Vector(0, 0, 0), Vector(0.1, 0.2, 1), angle)
+    part = rounded.common(tool) if keep_quarter else rounded.cut(tool)
+    mesh = pipeline.run(part, {"max_size": 5.0})
+    assert mesh.report()["quality"]["min_dihedral"] > 20
+    plc = convert(part).plc
+    for number, face in enumerate(part.Faces):
+        if is_narrow(face, face.Surface):
+            mine = plc.points, plc.triangles[plc.triangle_face == number].tolist()
+            assert 0.89 * face.Area < area_of(mine) < face.Area  # chords of a quarter circle: 0.90
+
+
+def test_a_narrow_strip_without_an_outline_in_its_parameters_keeps_the_triangles_of_occ(monkeypatch):
+    def crossing(*_):
+        raise MeshError("plc", "bad_facet", "the outline of a face crosses itself")
+
+    monkeypatch.setattr(parametric, "parametric_facets", crossing)
+    disc = Part.makeCylinder(120, 5)
+    part = disc.makeFillet(1, [disc.Edges[0]]).cut(QUARTER)
+    plc = convert(part).plc
+    strip = next(number for number, face in enumerate(part.Faces) if is_narrow(face, face.Surface))
+    assert (plc.triangle_face == strip).any()
+
+
 ROUND_FACES = {
     "cylinder": lambda: Part.makeCylinder(5, 20),
     "part of a cylinder": lambda: Part.makeCylinder(5, 20, Vector(0, 0, 0), Vector(0, 0, 1), 200),
@@ -84,6 +117,9 @@ ROUND_FACES = {
     "cylinder with an edge inside": lambda: Part.makeCylinder(5, 20).generalFuse(
         [Part.makeLine(Vector(0, 5, 5), Vector(0, 5, 15))], 1e-5
     )[0],
+    # The seam of the whole bounds them, and is a seam for OCC still, though they have it once.
+    "three quarters of a torus": lambda: Part.makeTorus(10, 3).cut(QUARTER),
+    "a quarter of a cylinder": lambda: Part.makeCylinder(5, 20).common(QUARTER),
     "reversed": lambda: Part.makeBox(20, 20, 20).cut(Part.makeSphere(6, Vector(10, 10, 10))),
 }
 
