@@ -37,7 +37,6 @@ class Option:
     unit: str = ""
     open_minimum: bool = False
     choices: Tuple[Any, ...] = ()
-    advanced: bool = False
     metavar: str = ""
 
     @property
@@ -91,7 +90,7 @@ OPTIONS = (
     ),
     Option(
         "min_size", "length", None, 0, None,
-        "smallest edge length that curvature, walls and acute angles get; automatic: 1/1000 of Max size",
+        "smallest edge length that curvature and walls get; automatic: 1/100 of Max size, 1/50 at walls",
         "MinSize", "App::PropertyLength", "Size", "Min size", "mm", True, metavar="MM",
     ),
     Option(
@@ -127,17 +126,17 @@ OPTIONS = (
     Option(
         "seed", "int", 1, 0, 2**31 - 1,
         "seed of the random numbers: the same seed gives the same mesh",
-        "Seed", "App::PropertyInteger", "Run", "Seed", advanced=True, metavar="N",
+        "Seed", "App::PropertyInteger", "Run", "Seed", metavar="N",
     ),
     Option(
         "threads", "int", 0, 0, 1024,
         "threads; 0: all cores, at most 8. The mesh does not depend on it",
-        "Threads", "App::PropertyInteger", "Run", "Threads", advanced=True, metavar="N",
+        "Threads", "App::PropertyInteger", "Run", "Threads", metavar="N",
     ),
     Option(
         "max_elements", "int", 0, 0, 2**31 - 1,
         "refuse to start when more tetrahedra are to be expected; 0: as many as fit into memory",
-        "MaxElements", "App::PropertyInteger", "Run", "Max elements", advanced=True, metavar="N",
+        "MaxElements", "App::PropertyInteger", "Run", "Max elements", metavar="N",
     ),
 )  # fmt: skip
 

@@ -4,7 +4,7 @@ import math
 
 from ..sizing import AUTOMATIC_FRACTION
 
-MIN_FRACTION = 1000  # of the largest size, as options.py says
+MIN_FRACTION = 100  # of the largest size, as options.py says
 VOLUME_SHARE = 0.1  # mean volume of a tetrahedron over the cube of the wanted edge length (measured)
 
 

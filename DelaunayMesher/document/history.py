@@ -6,6 +6,8 @@ part in undo, and the meshes of earlier runs are kept here as arrays, for the le
 undo or redo the mesh with the object's number is put back.
 """
 
+from contextlib import contextmanager
+
 import FreeCAD
 
 from .femmesh import fill, put
@@ -63,14 +65,28 @@ def runs_of(target):
     return proxy.runs
 
 
+@contextmanager
+def kept(target):
+    """While a new mesh is put into the object: its present one is kept, and put back after an error."""
+    number = keep_present(target)
+    try:
+        yield
+    except BaseException:
+        runs = runs_of(target)
+        runs.meshes[number].put_into(target)
+        runs.shown = number
+        raise
+
+
 def keep_present(target):
-    """To be called before a new mesh is put into the object: its present mesh must not be lost."""
+    """Keep the mesh that the object has; returns the number of the run that made it."""
     if not observers:
         observers.append(UndoObserver())
         FreeCAD.addDocumentObserver(observers[0])
     runs = runs_of(target)
     if target.RunNumber not in runs.meshes:
         runs.meshes[target.RunNumber] = Copied(target.FemMesh)
+    return target.RunNumber
 
 
 def number_run(target, mesh, groups):
@@ -78,7 +94,8 @@ def number_run(target, mesh, groups):
     runs = runs_of(target)
     target.RunNumber += 1
     runs.shown = target.RunNumber
-    runs.meshes = {number: kept for number, kept in runs.meshes.items() if number < runs.shown}
+    undoable = target.Document.UndoMode > 0
+    runs.meshes = {number: old for number, old in runs.meshes.items() if undoable and number < runs.shown}
     runs.meshes[runs.shown] = Kept(mesh, groups)
     forget_oldest(runs)
 
@@ -99,12 +116,12 @@ def restore(document):
         runs = getattr(getattr(target, "Proxy", None), "runs", None)
         if not isinstance(runs, Runs) or runs.shown == target.RunNumber:
             continue
-        kept = runs.meshes.get(target.RunNumber)
-        if kept is None:
+        wanted = runs.meshes.get(target.RunNumber)
+        if wanted is None:
             FreeCAD.Console.PrintWarning(
                 "%s: the mesh of this step is no longer kept, run the mesher again\n" % target.Label
             )
             continue
-        kept.put_into(target)
+        wanted.put_into(target)
         runs.shown = target.RunNumber
         target.purgeTouched()

@@ -6,12 +6,15 @@ Recomputing the document never meshes.  A run that fails or is cancelled leaves 
 
 import json
 import time
+from dataclasses import asdict, dataclass
+from typing import Any, List, Tuple
 
 import Fem  # noqa: F401  registers the document types; without it the better type below is not known
 import FreeCAD
 
 from ..errors import InputError
-from . import femmesh, references
+from ..options import MeshOptions
+from . import femmesh, history, references
 from .placement import own_shape, shape_to_mesh
 from .properties import add_option_properties, get_options, set_options
 from .size_region import add_size_region, regions_of
@@ -26,6 +29,7 @@ LINK_LISTS = {
     "MeshBoundaryLayerList": "Not used; FreeCAD's tree asks for it",
 }
 LARGEST_LIST = 200  # entries of a list kept in the stored report
+WITHOUT_EFFECT = ("threads", "max_elements")  # options that do not change the mesh
 
 
 class MeshDelaunay(Stateless):
@@ -144,22 +148,73 @@ def analysis_of(target):
     return None
 
 
+@dataclass
+class Task:
+    """What a run of a mesh object is given.
+
+    keep: names of elements that stay; groups: (name, names of elements) pairs; made_from: tells one part and
+    its options from another, see is_current().
+    """
+
+    shape: Any
+    options: MeshOptions
+    keep: List[str]
+    groups: List[Tuple[str, List[str]]]
+    warnings: List[str]
+    made_from: str
+
+    def mesh(self, report=None):
+        """The Mesh; report as in run()."""
+        mesh = mesh_shape(self.shape, self.options, report, self.keep)
+        mesh.warnings[:0] = self.warnings
+        return mesh
+
+
 def collect(target, **extra):
-    """(shape, options, names of elements to keep, groups, warnings) for a run of the mesh object."""
+    """The Task of a mesh object; extra as in run().  Raises InputError."""
     part = target.Shape
     if part is None:
         raise InputError("options", "no_part", "%s is not linked to a part" % target.Label)
     shape = shape_to_mesh(part)
+    if shape is None:
+        raise InputError("options", "no_shape", "%s has no visible shape to mesh" % part.Label)
     sizes = read_sizes(target.Sizes)
     refined, warnings = references.refinement_sizes(target, part, shape)
     for name, size in refined.items():
         sizes[name] = min(size, sizes.get(name, size))
-    regions = [*regions_of(target), *extra.pop("regions", ())]
-    options = get_options(target, sizes=sizes, regions=regions, **extra)
+    options = get_options(target, sizes=sizes, regions=regions_of(target))
+    made_from = fingerprint(shape, options)
+    options = options.with_changes(**{**extra, "regions": [*options.regions, *extra.get("regions", ())]})
     groups = references.named_groups(target, part, shape)
-    keep = references.constraint_names(analysis_of(target), part)
+    keep = references.constraint_names(analysis_of(target), part, shape)
     keep += [name for _, names in groups for name in names]
-    return shape, options, keep, groups, warnings
+    return Task(shape, options, keep, groups, warnings, made_from)
+
+
+def fingerprint(shape, options):
+    """Text that differs when the mesh of a shape with these options does."""
+    box = shape.BoundBox
+    figures = (shape.Volume, shape.Area, box.XMin, box.YMin, box.ZMin, box.XMax, box.YMax, box.ZMax)
+    size = max(box.DiagonalLength, 1e-300)
+    shares = [figures[0] / size**3, figures[1] / size**2, *(figure / size for figure in figures[2:]), size]
+    chosen = {name: value for name, value in asdict(options).items() if name not in WITHOUT_EFFECT}
+    return "%d %d %s %s" % (
+        len(shape.Faces),
+        len(shape.Edges),
+        " ".join("%.7g" % share for share in shares),
+        chosen,
+    )
+
+
+def is_current(target):
+    """Whether the object holds a mesh made from the part and the options as they are now.
+
+    A mesh that came otherwise (an opened file, an earlier version) counts as current.  Raises InputError.
+    """
+    if not target.FemMesh.VolumeCount:
+        return False
+    made_from = stored_report(target).get("made_from")
+    return target.Shape is None or made_from in (None, collect(target).made_from)
 
 
 def run(target, report=None, **extra):
@@ -168,15 +223,15 @@ def run(target, report=None, **extra):
     report: callable (stage, fraction) -> bool, False cancels.  extra: regions, size_points, size_values.
     Raises MeshError, InputError or MeshCancelled; the object then keeps what it had.
     """
-    shape, options, keep, groups, warnings = collect(target, **extra)
-    mesh = mesh_shape(shape, options, report, keep)
-    mesh.warnings[:0] = warnings
+    task = collect(target, **extra)
+    mesh = task.mesh(report)
     start = time.perf_counter()
-    for _ in femmesh.put(target, femmesh.fill(mesh, groups)):
-        pass
-    mesh.seconds["write"] = time.perf_counter() - start
-    mesh.total_seconds += mesh.seconds["write"]
-    describe(target, mesh)
+    with history.kept(target):
+        for _ in femmesh.put(target, femmesh.fill(mesh, task.groups)):
+            pass
+        mesh.seconds["write"] = time.perf_counter() - start
+        mesh.total_seconds += mesh.seconds["write"]
+        record(target, mesh, task)
     return mesh
 
 
@@ -187,10 +242,16 @@ def mesh_shape(shape, options, report=None, keep=()):
     return pipeline.run(shape, options, report, keep)
 
 
-def describe(target, mesh):
-    """Say in the object what its mesh is like."""
+def record(target, mesh, task):
+    """Say in the object what its new mesh is, in the step that undo is to take back."""
+    describe(target, mesh, task.made_from)
+    history.number_run(target, mesh, task.groups)
+
+
+def describe(target, mesh, made_from=None):
+    """Say in the object what its mesh is like, and what it was made from."""
     target.Summary = summary(mesh)
-    target.Report = json.dumps(shortened(mesh.report()))
+    target.Report = json.dumps({**shortened(mesh.report()), "made_from": made_from})
 
 
 def summary(mesh):
@@ -220,5 +281,5 @@ def shortened(report):
 
 
 def stored_report(target):
-    """The report of the last run as a dict; {} when there was none."""
-    return json.loads(target.Report) if target.Report else {}
+    """The report on the object's mesh as a dict; {} when no run made it, or it was cleared since."""
+    return json.loads(target.Report) if target.Report and target.FemMesh.VolumeCount else {}

@@ -36,6 +36,17 @@ def global_shape(item):
     return shape
 
 
+def placement_in_mesh(item, part):
+    """The placement that takes the shape of `item` to where it lies in shape_to_mesh(part)."""
+    import FreeCAD
+
+    outer = outer_placement(item) or FreeCAD.Placement()
+    if version() >= GLOBAL_SINCE:
+        return outer
+    around = outer_placement(part) or FreeCAD.Placement()
+    return around.inverse().multiply(outer)
+
+
 def outer_placement(item):
     """What the parts around `item` do to its shape; None where FreeCAD does not know."""
     if hasattr(item, "getGlobalPlacement") and hasattr(item, "Placement"):

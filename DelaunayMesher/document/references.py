@@ -7,7 +7,7 @@ then looked for by its geometry.
 """
 
 from ..errors import InputError
-from .placement import own_shape
+from .placement import own_shape, placement_in_mesh
 
 REFINEMENT_LISTS = ("MeshRegionList", "MeshRefinementList")  # up to FreeCAD 1.1, and later
 
@@ -19,23 +19,21 @@ def referred_names(references, part, shape):
         if isinstance(elements, str):
             elements = (elements,)
         for element in [e for e in elements if e] or all_solids(item):
-            element = element.split(".")[-1]
-            names.append(element if item == part else find_element(item, element, shape))
+            names.append(find_element(item, element.split(".")[-1], part, shape))
     return list(dict.fromkeys(names))
 
 
 def all_solids(item):
     """A reference to a whole object means its solids."""
-    return ["Solid%d" % (number + 1) for number in range(len(own_shape(item).Solids))]
+    shape = own_shape(item)
+    if shape is None:
+        raise InputError("options", "unknown_reference", "%s has no shape to refer to" % item.Label)
+    return ["Solid%d" % (number + 1) for number in range(len(shape.Solids))]
 
 
-def find_element(item, element, shape):
-    """Name of the element of `shape` with the same geometry as `element` of another object; InputError if
-    none.
-    """
-    from femtools import geomtools
-
-    found = geomtools.find_element_in_shape(shape, geomtools.get_element(item, element))
+def find_element(item, element, part, shape):
+    """Name of the element of `shape` (that of `part`) that `element` of `item` means; InputError if none."""
+    found = matching_element(item, element, part, shape)
     if not found:
         raise InputError(
             "options",
@@ -44,6 +42,20 @@ def find_element(item, element, shape):
             entity=element,
         )
     return found
+
+
+def matching_element(item, element, part, shape):
+    """find_element, but None where there is none."""
+    if item in (part, getattr(part, "Tip", None)):  # a body has the elements of its last feature
+        return element
+    from femtools import geomtools
+
+    try:
+        wanted = geomtools.get_element(item, element).copy()
+        wanted.Placement = placement_in_mesh(item, part).multiply(wanted.Placement)
+        return geomtools.find_element_in_shape(shape, wanted)
+    except Exception:  # FreeCAD has several for an element that is gone and for an object without a shape
+        return None
 
 
 def refinement_objects(target):
@@ -85,11 +97,14 @@ def named_groups(target, part, shape):
     return groups
 
 
-def constraint_names(analysis, part):
-    """Names of the part's elements that the constraints of an analysis refer to (seams among them stay)."""
+def constraint_names(analysis, part, shape):
+    """Names of the faces, edges and vertices of `part` that the constraints of an analysis refer to (seams
+    among them stay).
+    """
     names = []
     for item in analysis.Group if analysis else ():
         for other, elements in getattr(item, "References", None) or ():
-            if other == part:
-                names += [element.split(".")[-1] for element in elements if element]
-    return names
+            wanted = [element.split(".")[-1] for element in elements if element]
+            wanted = [element for element in wanted if element.startswith(("Face", "Edge", "Vertex"))]
+            names += [matching_element(other, element, part, shape) for element in wanted]
+    return [name for name in names if name]

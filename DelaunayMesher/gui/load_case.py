@@ -3,6 +3,7 @@
 import FreeCADGui
 
 from .commands import body_of
+from .guards import undo_step
 from .start_mesh import panel_is_open, show_error
 from .texts import tr
 
@@ -34,13 +35,12 @@ def make(selection, maker, title):
     import ObjectsFem
 
     document = references[0][0].Document
-    document.openTransaction(title)
-    analysis = complete_analysis(document)
-    constraint = getattr(ObjectsFem, maker)(document)
-    constraint.References = references
-    analysis.addObject(constraint)
-    document.recompute()
-    document.commitTransaction()
+    with undo_step(document, title):
+        analysis = complete_analysis(document)
+        constraint = getattr(ObjectsFem, maker)(document)
+        constraint.References = references
+        analysis.addObject(constraint)
+        document.recompute()
     FreeCADGui.Selection.clearSelection()
     return constraint
 

@@ -16,6 +16,7 @@ from ..document import history, mesh_object
 from ..document.femmesh import fill, put
 from ..errors import MeshCancelled, MeshError
 from ..progress import Progress
+from .guards import mesh_errors, undo_step
 from .texts import tr
 
 LONGEST_STOP = 5.0  # seconds that the end of FreeCAD waits for a thread
@@ -41,8 +42,9 @@ class MeshJob:
     """Prepared by the constructor (raises MeshError), then start(), and store() once `finished` and good."""
 
     def __init__(self, target):
-        shape, self.options, self.keep, self.groups, self.warnings = mesh_object.collect(target)
-        self.shape = shape.copy()  # the document's own shape may be recomputed meanwhile
+        with mesh_errors("options"):
+            self.task = mesh_object.collect(target)
+            self.task.shape = self.task.shape.copy()  # the document's own may be recomputed meanwhile
         self.where = (target.Document.Name, target.Name)
         self.stage, self.fraction = "plc", 0.0
         self.mesh = self.filling = self.error = None
@@ -72,13 +74,12 @@ class MeshJob:
     def run(self):
         """In the thread: shape -> mesh -> what the document is to get, and the figures for the report."""
         try:
-            mesh = mesh_object.mesh_shape(self.shape, self.options, self.report, self.keep)
-            mesh.warnings[:0] = self.warnings
+            mesh = self.task.mesh(self.report)
             self.proceed("write", 0.0)
             start = time.monotonic()
             measure = threading.Thread(target=lambda: mesh.quality, name="DelaunayMesher quality")
             measure.start()
-            filling = fill(mesh, self.groups)
+            filling = fill(mesh, self.task.groups)
             taken = time.monotonic() - start
             mesh.seconds = {**mesh.seconds, "write": taken}
             mesh.total_seconds += taken
@@ -112,16 +113,15 @@ class MeshJob:
     def store(self, target):
         """Put the finished mesh into the mesh object and show it: one step that can be undone.
 
-        The mesh itself stays out of FreeCAD's transaction, which cannot bring an old one back.
+        The mesh itself stays out of FreeCAD's transactions, which cannot bring an old one back.
         """
-        history.keep_present(target)
-        for _ in put(target, self.filling):
-            QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.ExcludeUserInputEvents)
-        target.Document.openTransaction(tr("Delaunay mesh run"))
-        mesh_object.describe(target, self.mesh)
-        history.number_run(target, self.mesh, self.groups)
-        show_mesh_instead_of_part(target)
-        target.Document.commitTransaction()
+        target.Document.commitTransaction()  # a double click in FreeCAD's tree leaves one open
+        with mesh_errors("write"), history.kept(target):
+            for _ in put(target, self.filling):
+                QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.ExcludeUserInputEvents)
+            with undo_step(target.Document, tr("Delaunay mesh run")):
+                mesh_object.record(target, self.mesh, self.task)
+                show_mesh_instead_of_part(target)
         self.mesh = self.filling = None
         target.recompute()
 

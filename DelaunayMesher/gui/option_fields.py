@@ -14,6 +14,7 @@ from .texts import tr
 
 UNITS = {"length": "mm", "angle": "deg"}
 LARGEST = 1e9
+DECIMALS = 12
 NARROW = 96  # pixels that a field needs at least: FreeCAD's panels are narrow at first
 CHOICE_LABELS = {
     ("order", 1): "First (4 nodes)",
@@ -107,10 +108,14 @@ class QuantityField(Field):
 
 
 class ShortSpinBox(QtGui.QDoubleSpinBox):
-    """12 instead of 12.00."""
+    """12 instead of 12.00, and all digits of what a document holds: Qt rounds the value to its decimals."""
+
+    def __init__(self):
+        super().__init__()
+        self.setDecimals(DECIMALS)
 
     def textFromValue(self, value):
-        return self.locale().toString(float(value), "g", 6)
+        return self.locale().toString(float(value), "g", DECIMALS)
 
 
 class SpinField(Field):
@@ -129,8 +134,8 @@ class NumberField(SpinField):
     def make(self):
         widget = ShortSpinBox()
         widget.setMinimumWidth(NARROW)
-        widget.setDecimals(2)
-        widget.setRange(self.option.minimum + (0.01 if self.option.open_minimum else 0), self.option.maximum)
+        least = 10.0**-DECIMALS if self.option.open_minimum else 0.0
+        widget.setRange(self.option.minimum + least, self.option.maximum)
         widget.setSingleStep(0.05 if self.option.default < 1 else 1.0)
         widget.valueChanged.connect(self.notify)
         return widget

@@ -5,6 +5,7 @@ region round a selected place.
 import FreeCADGui
 
 from .commands import body_of, is_our_mesh
+from .guards import undo_step
 from .start_mesh import panel_is_open, show_error
 from .texts import tr
 
@@ -36,9 +37,9 @@ def refine_here(selection):
 
     size = starting_size(mesh, mesh.Shape)
     document = mesh.Document
-    document.openTransaction(tr("Size region"))
-    region = add_size_region(mesh, Region.ball(place_of(chosen, mesh.Shape), SIZES_TO_RADIUS * size, size))
-    document.commitTransaction()
+    with undo_step(document, tr("Size region")):
+        place = place_of(chosen, mesh.Shape)
+        region = add_size_region(mesh, Region.ball(place, SIZES_TO_RADIUS * size, size))
     document.recompute()
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.getDocument(document.Name).setEdit(region.Name)
@@ -84,10 +85,9 @@ def create(mesh, part, names):
     import ObjectsFem
 
     document = mesh.Document
-    document.openTransaction(tr("Mesh refinement"))
-    refinement = ObjectsFem.makeMeshRegion(document, mesh, starting_size(mesh, part))
-    refinement.References = [(part, list(names))]
-    document.commitTransaction()
+    with undo_step(document, tr("Mesh refinement")):
+        refinement = ObjectsFem.makeMeshRegion(document, mesh, starting_size(mesh, part))
+        refinement.References = [(part, list(names))]
     document.recompute()
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.getDocument(document.Name).setEdit(refinement.Name)

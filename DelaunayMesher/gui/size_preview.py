@@ -11,6 +11,7 @@ from ..document import preview as computation
 from ..document.estimate import two_digits
 from ..errors import MeshError
 from .colours import size_scale
+from .guards import mesh_errors
 from .mesh_job import remember
 from .overlay import Overlay
 from .run_box import number
@@ -23,8 +24,9 @@ class PreviewJob:
     """The computation in a thread; `result` or `error` once it is finished.  It is forgotten, not stopped."""
 
     def __init__(self, target):
-        shape, self.options, self.keep, _, _ = mesh_object.collect(target)
-        self.shape = shape.copy()
+        with mesh_errors("options"):
+            self.task = mesh_object.collect(target)
+            self.task.shape = self.task.shape.copy()
         self.result = self.error = None
         self.thread = threading.Thread(target=self.run, name="DelaunayMesher preview", daemon=True)
         self.thread.start()
@@ -35,7 +37,7 @@ class PreviewJob:
 
     def run(self):
         try:
-            self.result = computation.preview(self.shape, self.options, self.keep)
+            self.result = computation.preview(self.task.shape, self.task.options, self.task.keep)
         except MeshError as error:
             self.error = str(error)
         except Exception as error:
@@ -99,7 +101,7 @@ class SizePreview:
             preview.points, faces, shares[faces].mean(axis=1), size_scale(), with_edges=False
         )
         for item in (self.target, self.target.Shape):
-            if item.ViewObject.Visibility:
+            if item is not None and item.ViewObject.Visibility:
                 self.hidden.append(item)
                 item.ViewObject.hide()
         self.box.count.setText(tr("About %s tetrahedra") % number(two_digits(preview.count)))

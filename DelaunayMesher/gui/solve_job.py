@@ -5,14 +5,14 @@ process.
 """
 
 import time
-import traceback
 from contextlib import contextmanager
 
 import FreeCAD
 from PySide import QtCore, QtGui
 
 from ..document.calculix import Calculation
-from ..errors import MeshCancelled, MeshError
+from ..errors import MeshCancelled
+from .guards import mesh_errors, undo_step
 from .texts import tr
 
 STRESS_FIELDS = ("von Mises Stress", "von Mises stress")
@@ -28,7 +28,7 @@ class SolveJob:
         self.where = (target.Document.Name, target.Name)
         self.cancelled = False
         self.begin, self.end = time.monotonic(), None
-        with patience():
+        with patience(), undo_step(target.Document, tr("CalculiX")):  # a missing solver is made
             self.calculation = Calculation(target)
 
     def start(self):
@@ -64,17 +64,10 @@ class SolveJob:
 
         Returns the result object; raises MeshError when there is none.
         """
-        with patience():
-            target.Document.openTransaction(tr("Results of CalculiX"))
-            try:
-                result = self.calculation.load()
-            except MeshError:
-                target.Document.abortTransaction()
-                raise
+        with patience(), undo_step(target.Document, tr("Results of CalculiX")):
+            result = self.calculation.load()
             self.shown = show_stress(result, self.calculation.analysis)
-            for item in (target, target.Shape):
-                item.ViewObject.hide()
-            target.Document.commitTransaction()
+            hide(target, target.Shape)
         return result
 
 
@@ -83,14 +76,17 @@ def patience():
     """The cursor tells to wait; errors of FreeCAD's tools become a MeshError."""
     QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
     try:
-        yield
-    except MeshError:
-        raise
-    except Exception as error:
-        FreeCAD.Console.PrintLog(traceback.format_exc())
-        raise MeshError("solve", "internal", "%s: %s" % (type(error).__name__, error)) from error
+        with mesh_errors("solve"):
+            yield
     finally:
         QtGui.QApplication.restoreOverrideCursor()
+
+
+def hide(*items):
+    """So that they do not cover the stresses; None is left out."""
+    for item in items:
+        if item is not None and item.ViewObject:
+            item.ViewObject.hide()
 
 
 def show_stress(result, analysis):

@@ -18,22 +18,21 @@ def create(part):
     from ..errors import MeshError
     from . import preferences
     from .explain import explain
+    from .guards import mesh_errors, undo_step
 
     document = part.Document
-    document.openTransaction(tr("Delaunay mesh"))
     try:
-        check_solid(own_shape(part))
-        arguments = "".join(", %s=%r" % item for item in preferences.options_for(part).items())
-        FreeCADGui.addModule("DelaunayMesher.document")
-        FreeCADGui.doCommand(
-            "mesh = DelaunayMesher.document.add_mesh(FreeCAD.getDocument(%r).getObject(%r)%s)"
-            % (document.Name, part.Name, arguments)
-        )
+        with mesh_errors("options"), undo_step(document, tr("Delaunay mesh")):
+            check_solid(own_shape(part))
+            arguments = "".join(", %s=%r" % item for item in preferences.options_for(part).items())
+            FreeCADGui.addModule("DelaunayMesher.document")
+            FreeCADGui.doCommand(
+                "mesh = DelaunayMesher.document.add_mesh(FreeCAD.getDocument(%r).getObject(%r)%s)"
+                % (document.Name, part.Name, arguments)
+            )
     except MeshError as error:
-        document.abortTransaction()
         show_error("%s\n\n%s" % (part.Label, explain(error)))
         return
-    document.commitTransaction()
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.doCommand("FreeCADGui.getDocument(mesh.Document.Name).setEdit(mesh.Name)")
 

@@ -14,6 +14,7 @@ from ..document.placement import own_shape
 from ..document.properties import get_option, set_option
 from ..errors import MeshError
 from ..options import OPTIONS
+from .guards import mesh_errors, undo_step
 from .legend import Legend
 from .mesh_job import MeshJob
 from .option_fields import make_field
@@ -71,18 +72,26 @@ class MeshPanel:
         self.run(MeshJob)
 
     def mesh_and_solve(self):
-        """Solve the analysis; an empty mesh is filled first."""
-        self.then_solve = not self.target.FemMesh.VolumeCount
-        self.run(MeshJob if self.then_solve else SolveJob)
+        """Solve the analysis; a mesh that is missing, or not of the part and options as they are now, is made
+        first.
+        """
+        self.run(self.mesh_or_solve)
 
-    def run(self, kind):
-        """Start a job of this kind on the mesh object."""
+    def mesh_or_solve(self, target):
+        """The first job of mesh_and_solve()."""
+        self.then_solve = not mesh_object.is_current(target)
+        return MeshJob(target) if self.then_solve else SolveJob(target)
+
+    def run(self, make_job):
+        """Start the job that make_job(mesh object) returns."""
         self.preview.end()
         self.options_box.store(self.target)
         self.run_box.begin()
         try:
-            self.job = kind(self.target)
+            with mesh_errors("options"):
+                self.job = make_job(self.target)
         except MeshError as error:
+            self.then_solve = False
             self.run_box.fail(error)
             return
         self.options_box.setEnabled(False)
@@ -248,10 +257,9 @@ class OptionsBox(QtGui.QWidget):
         changed = [field for field in self.fields.values() if is_changed(field, target)]
         if not changed:
             return
-        target.Document.openTransaction("Mesh options")
-        for field in changed:
-            set_option(target, field.option, field.value())
-        target.Document.commitTransaction()
+        with undo_step(target.Document, "Mesh options"):
+            for field in changed:
+                set_option(target, field.option, field.value())
 
 
 def is_changed(field, target):

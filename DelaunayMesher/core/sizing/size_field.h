@@ -30,7 +30,7 @@ inline constexpr double kBoundaryEdge = 0.85;
 
 struct SizeOptions {
   double max_size = 0;              // mm, > 0
-  double min_size = 0;              // mm, the floor; 0 = automatic (max_size / 1000)
+  double min_size = 0;              // mm, the floor; 0 = automatic (sources.h: size_limits)
   double growth = 0.35;             // Lipschitz constant of h
   double elements_per_circle = 12;  // 0 = no curvature source
   double elements_across = 2;       // elements across walls and gaps; 0 = no proximity source
