@@ -20,15 +20,6 @@ from DelaunayMesher.options import MeshOptions
 ROOT = Path(__file__).parent.parent.parent
 
 
-@pytest.fixture
-def two_boxes(tmp_path):
-    """Two solids in one group, as they touch in an edge."""
-    boxes = [Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(10, 0, 0))]
-    path = str(tmp_path / "two.brep")
-    boxes[0].generalFuse(boxes[1:])[0].exportBrep(path)
-    return path
-
-
 def test_same_mesh_as_in_this_process():
     options = MeshOptions(max_size=8, optimise=False)
     with CadProcess(BRACKET) as source:
@@ -40,20 +31,31 @@ def test_same_mesh_as_in_this_process():
     assert apart.shape is None and here.shape is not None
 
 
-def test_solids_apart(two_boxes):
-    options = MeshOptions(max_size=4)
-    converted = document.convert(document.read_shape(two_boxes), options)
+@pytest.mark.parametrize(
+    "place, solids", [((10, 10, 0), [[1], [2]]), ((10, 0, 0), [])], ids=["sharing an edge", "sharing a face"]
+)
+def test_solids_apart(tmp_path, place, solids):
+    """Two boxes in one PLC: what shares an edge comes apart, what shares a face does not."""
+    path, options = str(tmp_path / "two.brep"), MeshOptions(max_size=4)
+    first, second = Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(*place))
+    first.generalFuse([second])[0].exportBrep(path)
+    converted = document.convert(document.read_shape(path), options)
     assert len(converted.plcs) == 1
     here = converted.apart(converted.plcs[0])
-    with CadProcess(two_boxes) as source:
+    with CadProcess(path) as source:
         source.wait()
-        os.remove(two_boxes)  # it is not read twice
+        os.remove(path)  # it is not read twice
         plcs = source.convert(options)
         assert len(plcs) == 1 and plcs[0].solid_count == 2
         there = source.apart(plcs[0])
+        assert list(map(id, source.plcs)) == list(map(id, there or plcs))  # a later call counts these
+        if there:
+            assert source.process.wait(timeout=20) == 0  # nothing is left to take apart
     for pieces in (here, there):
-        assert [piece.solid_numbers.tolist() for piece in pieces] in ([], [[1], [2]])
-    assert len(here) == len(there)
+        assert [piece.solid_numbers.tolist() for piece in pieces] == solids
+    for own, sent in zip(here, there):
+        assert own.points.tobytes() == sent.points.tobytes()
+        assert own.triangles.tobytes() == sent.triangles.tobytes()
 
 
 def test_the_process_ends_when_nothing_can_be_taken_apart():

@@ -1,4 +1,5 @@
-"""Random parts: each meshes, fills its CAD solids, and has its nodes on their CAD faces and edges."""
+"""Random parts: each meshes, is a valid mesh, fills its CAD solids, and has its nodes on their CAD faces and
+edges."""
 
 import numpy as np
 import Part
@@ -17,9 +18,10 @@ NODES = 4  # tried of each face and edge
 def test_a_random_part(number):
     part = random_part(number)
     mesh = pipeline.run(part, {"threads": 1})
-    verify(mesh)
+    found = verify(mesh)
+    assert not len(found["inverted"]) and not len(found["boundary"])
     corners = np.asarray(mesh.points)[np.asarray(mesh.tets)[:, :4]]
-    volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])).sum() / 6
+    volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6  # signed: none may be inverted
     assert volume == pytest.approx(part.Volume, rel=COARSE)
     for dimension, elements in ((1, part.Edges), (2, part.Faces)):
         here = np.flatnonzero(mesh.point_dimension == dimension)

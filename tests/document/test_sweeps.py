@@ -121,11 +121,16 @@ def test_tetrahedra_grade_towards_triangles_smaller_than_the_size(side, size):
     assert mesh.quality["min_dihedral"] > 19.9
 
 
-def test_a_size_keeps_what_is_small():
+@pytest.mark.parametrize("size", [None, 0.5, 8.0])
+def test_a_size_keeps_what_is_small(size):
+    """The face of a low step becomes an edge; a size of its own, even that of the part, keeps all of it."""
     shape = stepped_block(0.05)
-    face = next(i for i, f in enumerate(shape.Faces, 1) if f.Area < 2)
-    mesh = DelaunayMesher.mesh(shape, max_size=8.0, sizes={"Face%d" % face: 0.5}, threads=1)
-    assert (mesh.triangle_face == face - 1).any() or (mesh.triangle_face == face).any()
+    face = next(i for i, f in enumerate(shape.Faces) if f.Area < 2)
+    sizes = {"Face%d" % (face + 1): size} if size else {}
+    mesh = DelaunayMesher.mesh(shape, max_size=8.0, sizes=sizes, threads=1)
+    a, b, c = (mesh.points[mesh.triangles[mesh.triangle_face == face, i]] for i in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    assert area == pytest.approx(shape.Faces[face].Area if size else 0.0)
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -166,3 +171,13 @@ def test_faces_with_a_strip_and_a_wide_part(flat, wide, angle):
     mesh = DelaunayMesher.mesh(upright.fuse(bent), max_size=0.43)
     assert mesh.quality["min_dihedral"] > 20
     assert len(mesh.tets) < 9000
+
+
+def test_elements_at_a_notch_are_not_excused_by_its_angle():
+    """The 30 degrees are outside of the solid, which has 330 there."""
+    half = 6 * math.tan(math.radians(15))
+    outline = [V(5, -1, 4), V(5 - half, -1, 10), V(5 + half, -1, 10), V(5, -1, 4)]
+    notched = Part.makeBox(10, 5, 10).cut(Part.Face(Part.makePolygon(outline)).extrude(V(0, 8, 0)))
+    mesh = DelaunayMesher.mesh(notched, max_size=1.0, target_angle=30, optimise=False)
+    at_root = [np.hypot(item["place"][0] - 5, item["place"][2] - 4) < 1 for item in mesh.below_target]
+    assert any(at_root) and all(item["reason"] == "fallback" for item in mesh.below_target)

@@ -39,9 +39,18 @@ def wait_until(condition, seconds=120):
 
 
 def start(main, name):
-    """Run `main` once the window is up; say '<name> OK' when it went through; end FreeCAD."""
+    """Run `main` once the window is up; say '<name> OK' when it went through; end FreeCAD.
+
+    Qt prints an exception in a slot and goes on: here it is noted, and there is no OK.
+    """
+    uncaught = []
+
+    def note(kind, error, place):
+        uncaught.append(error)
+        say("".join(traceback.format_exception(kind, error, place)))
 
     def go():
+        sys.excepthook = note
         window = FreeCADGui.getMainWindow()
         window.resize(1300, 900)
         window.move(0, 0)
@@ -49,6 +58,8 @@ def start(main, name):
             wait(0.5)
             arrange()
             main()
+            wait(0.2)  # for what is still to come
+            assert not uncaught, "%d exceptions were not caught" % len(uncaught)
             say(name, "OK")
         except BaseException:
             say(traceback.format_exc())
