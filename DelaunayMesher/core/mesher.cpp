@@ -60,6 +60,16 @@ void record(MeshResult& result, const RecoveryReport& recovery, const RefineRepo
   add("refinement_slivers", static_cast<double>(refinement.slivers));
 }
 
+void record(MeshResult& result, const OptimiseReport& optimisation) {
+  const auto add = [&](const char* name, std::int64_t count) {
+    result.statistics.emplace_back(name, static_cast<double>(count));
+  };
+  add("optimisation_smoothed", optimisation.smoothed);
+  add("optimisation_flipped", optimisation.flipped);
+  add("optimisation_collapsed", optimisation.collapsed);
+  add("optimisation_rescued", optimisation.rescued);
+}
+
 // "Face3, Face7, Edge2 and 5 more"
 std::string names(const std::vector<Index>& faces, const std::vector<Index>& edges = {},
                   const std::vector<Index>& vertices = {}) {
@@ -143,7 +153,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   clock.stop("refinement");
 
   if (options.optimise) {
-    optimise(result.mesh, geometry, size, {}, context);
+    record(result, optimise(result.mesh, geometry, {}, context));
     clock.stop("optimisation");
   }
   const std::vector<Vec3> left_out = leave_out_flat_tets(result.mesh);
@@ -153,7 +163,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
     result.second_order = make_second_order(result.mesh, geometry, context);
     clock.stop("order");
   }
-  result.below_target = certify(result.mesh, size, options.target_angle);
+  result.below_target = certify(result.mesh, plc.face_solids, size, options.target_angle);
   clock.stop("certificate");
   return result;
 }

@@ -21,7 +21,7 @@ struct MesherOptions {
   double target_angle = 20;  // degrees, of the refinement
   bool optimise = true;
   int order = 1;
-  std::int64_t max_elements = 0;  // refuse to start when the prediction exceeds it; 0 = by free memory
+  std::int64_t max_elements = 0;  // refuse to start when the prediction exceeds it; 0 = no limit
 };
 
 struct MeshResult {

@@ -28,7 +28,7 @@ def preview(part, panel):
     drive.run(panel)
     real = panel.target.FemMesh.VolumeCount
     say("estimated", estimate, "made", real)
-    assert 0.6 * real < estimate < 1.5 * real
+    assert 0.8 * real < estimate < 1.2 * real
     drive.view_all()
     drive.picture("bracket")
 

@@ -8,7 +8,7 @@
 
 namespace dm {
 
-// A CAD element: dimension 0 vertex, 1 edge, 2 face, 3 solid; index 0-based; -1 = none.
+// A CAD element: dimension 0 vertex, 1 edge, 2 face, 3 solid; index from 0, of solids from 1; -1 = none.
 struct Entity {
   std::int8_t dimension = -1;
   Index index = -1;

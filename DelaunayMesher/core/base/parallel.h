@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -27,7 +28,10 @@ void for_all(int threads, int count, Work work) {
     }
   };
   std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(run, i);
+  try {
+    for (int i = 1; i < threads; ++i) others.emplace_back(run, i);
+  } catch (const std::system_error&) {  // the system has no more threads: those that run do all the work
+  }
   run(0);
   for (std::thread& other : others) other.join();
   if (error) std::rethrow_exception(error);

@@ -23,6 +23,9 @@ inline Sphere circumsphere(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   return {a + o, norm2(o)};
 }
 
+// The corners of face i, counter-clockwise seen from corner i: (f0, f1, f2, corner i) is positively oriented.
+inline constexpr int kFaceCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
 // Pairs of faces whose common edge is (other two corners): the six dihedral angles in one order everywhere.
 inline constexpr int kFacePairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 

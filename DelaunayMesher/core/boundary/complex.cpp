@@ -1,6 +1,7 @@
 #include "boundary/complex.h"
 
 #include <algorithm>
+#include <string>
 
 namespace dm {
 
@@ -38,7 +39,12 @@ int BoundaryComplex::triangles_at(Index a, Index b, Fan& fan) const {
   int n = 0;
   for (const Index t : incident_[a]) {
     const Triangle& q = triangles_[t].corners;
-    if ((q[0] == b || q[1] == b || q[2] == b) && n < kMaxFan) fan[n++] = t;
+    if (q[0] != b && q[1] != b && q[2] != b) continue;
+    if (n == kMaxFan)
+      throw Failure("boundary", "too_many_faces_at_edge",
+                    "More than " + std::to_string(kMaxFan) + " faces meet at one edge; cut the part there.",
+                    {}, entity(a), entity(b));
+    fan[n++] = t;
   }
   return n;
 }

@@ -14,7 +14,7 @@
 
 namespace dm {
 
-inline constexpr int kMaxFan = 16;  // triangles at one edge of a non-manifold junction
+inline constexpr int kMaxFan = 64;  // triangles at one edge of a non-manifold junction
 
 class BoundaryComplex {
  public:
@@ -40,7 +40,7 @@ class BoundaryComplex {
   void set_entity(Index v, Entity entity);
 
   std::span<const Index> triangles_at(Index v) const { return incident_[v]; }
-  // Triangles at edge (a, b); returns their number.
+  // Triangles at edge (a, b); returns their number.  Throws Failure when they are more than kMaxFan.
   int triangles_at(Index a, Index b, Fan& fan) const;
   Index find(Index a, Index b, Index c) const;  // the labelled triangle with these corners, or -1
   bool has_edge(Index a, Index b) const;

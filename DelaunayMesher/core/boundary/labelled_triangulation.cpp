@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <unordered_set>
 
 namespace dm {
 
@@ -14,14 +15,10 @@ Face search_star(const Triangulation& tets, Index a, Accept accept) {
   if (start < 0) return -1;
   std::vector<Index> star{start};
   const auto seen = [&](Index t) { return std::find(star.begin(), star.end(), t) != star.end(); };
-  std::vector<char> large;  // past a few dozen tetrahedra a bitmap beats the linear search
+  std::unordered_set<Index> large;  // past a few dozen tetrahedra it beats the linear search
   const auto visit = [&](Index t) {
-    if (star.size() == 64 && large.empty()) {
-      large.assign(tets.slot_count(), 0);
-      for (const Index s : star) large[s] = 1;
-    }
-    if (large.empty() ? seen(t) : large[t] != 0) return;
-    if (!large.empty()) large[t] = 1;
+    if (star.size() == 64 && large.empty()) large.insert(star.begin(), star.end());
+    if (large.empty() ? seen(t) : !large.insert(t).second) return;
     star.push_back(t);
   };
   for (std::size_t k = 0; k < star.size(); ++k) {
@@ -77,9 +74,7 @@ void set_marked_both(Triangulation& tets, Face f, bool on) {
 }
 
 bool corner_in_front(const Tet& v, int i, const Triangle& t) {
-  // Face i of a positively oriented tetrahedron, ordered so that corner i is in front of it.
-  static constexpr int order[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
-  const Index a = v[order[i][0]], b = v[order[i][1]];
+  const Index a = v[kFaceCorners[i][0]], b = v[kFaceCorners[i][1]];
   for (int k = 0; k < 3; ++k)
     if (t[k] == a) return t[(k + 1) % 3] == b;
   return false;
@@ -111,9 +106,8 @@ bool tag_solids(LabelledTriangulation& mesh) {
   for (Index t = 0; t < tets.slot_count(); ++t) {
     if (tets.is_free(t) || tets.tag(t) != unknown || !tets.marks(t)) continue;
     const int i = std::countr_zero(tets.marks(t));
-    const Tet& v = tets.corners(t);
-    const Index label = mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
-    const bool front = corner_in_front(v, i, mesh.boundary.corners(label));
+    const Index label = label_of(mesh, t, i);
+    const bool front = corner_in_front(tets.corners(t), i, mesh.boundary.corners(label));
     flood(t, static_cast<std::uint16_t>(mesh.boundary.solids(label)[front ? 1 : 0]));
   }
   for (Index t = 0; t < tets.slot_count(); ++t) {
@@ -142,7 +136,7 @@ void check_boundary(const LabelledTriangulation& mesh) {
       }
       ++marked;
       const Tet& v = tets.corners(t);
-      if (mesh.boundary.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]) < 0)
+      if (label_of(mesh, t, i) < 0)
         throw Failure("boundary", "check", "a marked face carries no label", tets.point(v[(i + 1) & 3]));
       if (!tets.is_ghost(t) && !label_agrees(mesh, t, i))
         throw Failure("boundary", "check", "a tetrahedron lies in another solid than its label says",

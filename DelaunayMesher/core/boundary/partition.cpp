@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "boundary/winding.h"
 
@@ -48,6 +49,7 @@ class Partition {
         if (std::find(list.begin(), list.end(), complex_.face(t)) == list.end())
           list.push_back(complex_.face(t));
         solids_of_[complex_.face(t)] = complex_.solids(t);
+        for (const auto& [face, solids] : solids_of_) meeting_.insert(std::minmax(solids[0], solids[1]));
       }
     }
   }
@@ -167,12 +169,7 @@ class Partition {
     return solid;
   }
 
-  bool can_meet(Index a, Index b) const {
-    return a == b || std::any_of(solids_of_.begin(), solids_of_.end(), [&](const auto& entry) {
-             const auto& s = entry.second;
-             return (s[0] == a && s[1] == b) || (s[0] == b && s[1] == a);
-           });
-  }
+  bool can_meet(Index a, Index b) const { return a == b || meeting_.contains(std::minmax(a, b)); }
 
   // Where solids meet that no CAD face separates, the tetrahedron between them is left out of both.
   void empty_impossible_contacts() {
@@ -282,6 +279,7 @@ class Partition {
   Context& context_;
   std::vector<std::vector<Index>> faces_at_;
   std::map<Index, std::array<Index, 2>> solids_of_;
+  std::set<std::pair<Index, Index>> meeting_;  // pairs of solids (0: none) that a CAD face separates
   std::vector<std::pair<Index, WindingNumber>> windings_;  // of solids
   Replaced replaced_;
   std::vector<char> near_;  // by tetrahedron

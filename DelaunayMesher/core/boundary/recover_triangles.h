@@ -4,8 +4,8 @@
 // no use where faces cross or touch: it only makes more triangles that cross, and with them bad elements.  So
 // where it fails it is taken back, and everything is done over without it thereabouts.
 // Precondition: the labelled triangles that are faces are marked.  Postcondition: the same, and those that
-// are not are the ones returned.  Cost: proportional to what is missing; a few copies of the triangulation
-// where splitting fails.
+// are not are the ones returned.  Cost: proportional to what is missing, and a copy of the triangulation; a
+// few more where splitting fails.  Limit: where ten faces or more meet at one edge, splitting often fails.
 #pragma once
 
 #include <vector>

@@ -62,9 +62,9 @@ double LengthField::at_between(const Vec3& p, double low, double high) const {
 }
 
 void LengthField::add_cap(const Vec3& p, double length) {
-  constexpr double field_growth = 0.2;  // the size field itself falls by no more, for usual growth rates
-  const double reach = (without_caps(p) - length) / (kGrowth - field_growth);
-  if (!(reach > 0 && length > 0)) return;
+  const double lowered = without_caps(p) - length, steeper = kGrowth - edge_ratio_ * size_.growth();
+  if (!(lowered > 0 && length > 0)) return;
+  const double reach = steeper > 0 ? lowered / steeper : HUGE_VAL;  // where the field itself is lower again
   caps_.add(p, length);
   const Vec3 d{reach, reach, reach};
   reach_.emplace_back();

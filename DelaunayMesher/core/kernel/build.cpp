@@ -69,7 +69,7 @@ class TriangulationBuilder {
   // Tetrahedron 0 = the first four vertices, and its four ghosts.
   void start(const Tet& first) {
     // Room for uniform points at once: pages not touched cost nothing, but moving a grown array does.
-    t_.resize_slots(kSlotsPerPoint * points_.size() + 64);
+    t_.resize_slots(std::min(kSlotsPerPoint * points_.size() + 64, Triangulation::kMostSlots));
     t_.slots_.next = 5;
     t_.corners_[0] = first;
     for (int i = 0; i < 5; ++i) t_.tags_[i] = 0, t_.flags_[i] = 0;

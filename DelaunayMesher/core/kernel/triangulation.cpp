@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/failure.h"
 #include "kernel/predicates.h"
 
 namespace dm {
@@ -140,7 +141,8 @@ template <bool kStopAtMarks, class Region>
 Face Triangulation::search(const Vec3& p, Index number, Index start, Cavity& cavity,
                            const Region& region) const {
   std::uint8_t* flags = flags_.data();
-  cavity.tets.resize(std::max<std::size_t>(cavity.tets.capacity(), 64));
+  cavity.tets.resize(
+      64);  // not to its capacity: that of the largest cavity so far would be written each time
   cavity.seen.resize(std::max<std::size_t>(cavity.seen.capacity(), 128));
   cavity.tets[0] = cavity.seen[0] = start;
   flags[start] |= kInside | kSeen;
@@ -229,10 +231,12 @@ template Index Triangulation::walk(const Vec3&, Index, const Part&) const;
 
 void Triangulation::reserve_slots(std::size_t wanted) {
   if (!slots_.enough(wanted))
-    resize_slots(std::max(slots_.next + wanted, corners_.size() + corners_.size() / 4));
+    resize_slots(std::max(slots_.next + wanted, std::min(corners_.size() / 4 * 5, kMostSlots)));
 }
 
 void Triangulation::resize_slots(std::size_t size) {
+  if (size > kMostSlots)
+    throw Failure("kernel", "too_many_points", "There are too many points for one triangulation.");
   corners_.resize(size);
   neighbours_.resize(size);
   tags_.resize(size);

@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "base/tet_geometry.h"
 #include "base/vec3.h"
 #include "kernel/array.h"
 #include "kernel/part.h"
@@ -33,9 +34,6 @@ namespace dm {
 
 // A face of the triangulation: 4 * tet + i, the face of tet opposite its corner i.
 using Face = std::int32_t;
-
-// The corners of face i, counter-clockwise seen from corner i: (f0, f1, f2, corner i) is positively oriented.
-inline constexpr int kFaceCorners[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
 struct Cavity {
   std::vector<Index> tets;     // in conflict with the site
@@ -75,12 +73,13 @@ struct Slots {
 
 class Triangulation {
  public:
-  static constexpr Index ghost = -1, free_slot = -2;  // in place of a corner
+  static constexpr Index ghost = -1, free_slot = -2;         // in place of a corner
+  static constexpr std::size_t kMostSlots = 0x7fffffff / 4;  // a Face is four times its tetrahedron
 
   // Triangulates `points` (Hilbert/BRIO order inside; vertex numbers stay those of `points`).
   // Exact duplicates get no tetrahedron: vertex_tet() of the later one is -1.
   // Throws Failure("kernel", "degenerate_points") when all points are coplanar, Failure("kernel",
-  // "not_finite") when a coordinate is NaN or infinite.
+  // "not_finite") when a coordinate is NaN or infinite, "too_many_points" above some 75 million.
   // When the last round has `parallel_from` points or more, it is inserted in parts, which several threads
   // can share, and so are the rounds before it down to an eighth of that; the numbers of the tetrahedra
   // depend on this limit, but never on the number of threads (tests lower it).

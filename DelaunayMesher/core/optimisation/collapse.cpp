@@ -24,7 +24,7 @@ void list_link(EditMesh& mesh, Index end, Index other, std::vector<Segment>& lin
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j <= i; ++j) add(c[i], c[j], contains(c, other));
       if (!mesh.marked(t, i) || c[i] == end) continue;
-      for (const int k : EditMesh::kFace[i]) add(c[k], kOutside, contains(c, other) && c[i] != other);
+      for (const int k : kFaceCorners[i]) add(c[k], kOutside, contains(c, other) && c[i] != other);
     }
   }
 }
@@ -46,7 +46,7 @@ bool breaks_link(EditMesh& mesh, Index from, Index to) {
 // A triangle of the cone that is new: it holds `to` and was no face of the star.
 bool Contractor::makes_forbidden_face(const Plan& plan, Index to) const {
   for (const Tet& t : plan.after)
-    for (const auto& f : EditMesh::kFace) {
+    for (const auto& f : kFaceCorners) {
       const Triangle c{t[f[0]], t[f[1]], t[f[2]]};
       if (!contains(c, to) || !mesh_.on_one_face(c[0], c[1], c[2])) continue;
       bool old = std::any_of(boundary_.begin(), boundary_.end(),
@@ -89,7 +89,7 @@ bool Contractor::list_triangles(Index from) {
     for (int i = 0; i < 4; ++i) {
       const Tet& c = mesh_.tet(t);
       if (!mesh_.marked(t, i) || c[i] == from) continue;
-      const auto& f = EditMesh::kFace[i];
+      const auto& f = kFaceCorners[i];
       const Index k = mesh_.find_triangle(c[f[0]], c[f[1]], c[f[2]]);
       if (k < 0) return false;
       if (std::find(triangles_.begin(), triangles_.end(), k) == triangles_.end()) triangles_.push_back(k);

@@ -2,7 +2,7 @@
 //
 // The star of the point becomes the cone from the other end over the star's faces; it is valid exactly when
 // every new tetrahedron is positively oriented.  A point on a CAD face goes to another point on that face,
-// one on a CAD edge along the edge, each with its boundary triangles: they turn by less than 25 degrees and
+// one on a CAD edge along the edge, each with its boundary triangles: they turn by less than 26 degrees and
 // lie as close to the CAD as the old ones, and breaks_link() is false.  No interior triangle with all corners
 // on one CAD face appears.  Cost: some microseconds.
 #pragma once

@@ -6,7 +6,7 @@ namespace dm {
 namespace {
 
 Triangle face_corners(const Tet& tet, int face) {
-  const auto& f = EditMesh::kFace[face];
+  const auto& f = kFaceCorners[face];
   return {tet[f[0]], tet[f[1]], tet[f[2]]};
 }
 

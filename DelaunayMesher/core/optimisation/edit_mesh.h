@@ -2,9 +2,10 @@
 // element.
 //
 // Works in place on the tetrahedra of a VolumeMesh.  Removed tetrahedra leave free slots that later ones use
-// again; finish() closes the gaps.  Faces of the boundary triangulation are marked and never change here.
-// All changes of connectivity go through replace(): a set of tetrahedra gives way to another one with the
-// same outer faces.  Precondition: check_volume_mesh(mesh).  After finish() it holds again.
+// again; finish() closes the gaps.  Faces of the boundary triangulation are marked.  All changes of
+// connectivity go through replace(): a set of tetrahedra gives way to another one with the same outer faces,
+// but for those that boundary flips, splits and contractions change together with their triangles.
+// Precondition: check_volume_mesh(mesh).  After finish() it holds again.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +41,6 @@ class EditMesh {
   explicit EditMesh(VolumeMesh& mesh);
   void finish();
 
-  // Corners of face i, so ordered that (face, corner i) is positively oriented.
-  static constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   static constexpr int kMaxReplace = 64;  // tetrahedra of one replacement, old and new each
   static constexpr Index kRemoved = -1;
   enum ChangeKind {

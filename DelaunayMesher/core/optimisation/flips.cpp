@@ -115,8 +115,8 @@ void Flipper::plan_face_removal(Index tet, int face, Plan& best) const {
   Plan plan;
   plan.cost = 0;
   for (int i = 0; i < 3 && plan.cost < bound; ++i) {
-    const Index p = mesh_.tet(tet)[EditMesh::kFace[face][i]],
-                q = mesh_.tet(tet)[EditMesh::kFace[face][(i + 1) % 3]];
+    const Index p = mesh_.tet(tet)[kFaceCorners[face][i]],
+                q = mesh_.tet(tet)[kFaceCorners[face][(i + 1) % 3]];
     plan.after[plan.after_count++] = {p, q, b, a};
     plan.cost = std::max(plan.cost, mesh_.compute_bad({p, q, b, a}));
   }
@@ -143,7 +143,7 @@ bool Flipper::is_allowed(const Plan& plan, std::span<const Triangle> boundary) c
     return std::any_of(boundary.begin(), boundary.end(), [&](const Triangle& t) { return all_in(t, f); });
   };
   for (int i = 0; i < plan.after_count; ++i)
-    for (const auto& f : EditMesh::kFace) {
+    for (const auto& f : kFaceCorners) {
       const Triangle corners{plan.after[i][f[0]], plan.after[i][f[1]], plan.after[i][f[2]]};
       if (mesh_.on_one_face(corners[0], corners[1], corners[2]) && !may_be(corners)) return false;
     }

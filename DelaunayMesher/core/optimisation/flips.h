@@ -40,7 +40,7 @@ class Flipper {
   std::span<const Index> apply(const Plan& plan);  // the new tetrahedra
   // Flip of a boundary edge inside one CAD face together with the tetrahedra round it, for the worst element.
   // The two triangles become the other two of their quadrilateral; on a curved face only if the new edge lies
-  // as close to the face and the normals turn by less than 25 degrees.  A tetrahedron with both triangles,
+  // as close to the face and the normals turn by less than 26 degrees.  A tetrahedron with both triangles,
   // between the two diagonals, leaves the mesh.
   bool improve_boundary(Index tet, const Geometry& geometry);
 

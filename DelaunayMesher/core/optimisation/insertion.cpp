@@ -20,7 +20,7 @@ bool has(const Items& items, const Item& item) {
 
 Index Inserter::triangle_at(Index tet, int face) {
   const Tet& c = mesh_.tet(tet);
-  const auto& f = EditMesh::kFace[face];
+  const auto& f = kFaceCorners[face];
   return mesh_.find_triangle(c[f[0]], c[f[1]], c[f[2]]);
 }
 
@@ -28,7 +28,7 @@ bool Inserter::in_cavity(Index tet) const { return has(cavity_, tet); }
 
 void Inserter::add_face(Index tet, int face, std::vector<Face>& to) const {
   const Tet& c = mesh_.tet(tet);
-  const auto& f = EditMesh::kFace[face];
+  const auto& f = kFaceCorners[face];
   Face found{tet, face, {c[f[0]], c[f[1]], c[f[2]]}, 0};
   const Triangle& t = found.corners;
   found.bad = badness(angle_cosines(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]), place_));
@@ -320,7 +320,7 @@ bool Inserter::insert(Index tet, int place) {
 Triangle Inserter::site(Index tet, int place) const {
   const Tet& c = mesh_.tet(tet);
   if (place > 6) {
-    const auto& f = EditMesh::kFace[place - 7];
+    const auto& f = kFaceCorners[place - 7];
     return mesh_.marked(tet, place - 7) ? sorted(Triangle{c[f[0]], c[f[1]], c[f[2]]}) : Triangle{-1, -1, -1};
   }
   std::vector<std::pair<double, Segment>> edges;

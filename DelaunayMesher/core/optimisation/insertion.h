@@ -5,7 +5,7 @@
 // moves to where the worst is best, and the cavity is grown once more. On the boundary the triangles that the
 // point is put into give way to others from it; the cavity then has tetrahedra on both sides where solids
 // meet. Postcondition: all tetrahedra have positive volume, whatever their angles (rescue.h sees to those);
-// the point lies on its CAD face or edge, its triangles turn by less than 25 degrees and lie as close to the
+// the point lies on its CAD face or edge, its triangles turn by less than 26 degrees and lie as close to the
 // CAD as the old ones; no interior triangle with all corners on one CAD face appears.  Cost: 20 us.
 #pragma once
 

@@ -197,8 +197,8 @@ class Optimiser {
 
 }  // namespace
 
-OptimiseReport optimise(VolumeMesh& mesh, const Geometry& geometry, const SizeField&,
-                        const OptimiseOptions& options, Context& context) {
+OptimiseReport optimise(VolumeMesh& mesh, const Geometry& geometry, const OptimiseOptions& options,
+                        Context& context) {
   context.begin("optimisation");
   sort_in_space(mesh);
   return Optimiser(mesh, geometry, options, context).run();

@@ -16,7 +16,6 @@
 #include "base/context.h"
 #include "base/volume_mesh.h"
 #include "plc/geometry.h"
-#include "sizing/size_field.h"
 
 namespace dm {
 
@@ -30,7 +29,7 @@ struct OptimiseReport {
 
 // Interior points move freely, points on a CAD face or edge slide on it, CAD vertices stay.  The boundary
 // triangulation changes by moving, inserting and removing its points and by flips inside one CAD face.
-OptimiseReport optimise(VolumeMesh& mesh, const Geometry& geometry, const SizeField& size,
-                        const OptimiseOptions& options, Context& context);
+OptimiseReport optimise(VolumeMesh& mesh, const Geometry& geometry, const OptimiseOptions& options,
+                        Context& context);
 
 }  // namespace dm

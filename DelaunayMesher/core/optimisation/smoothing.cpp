@@ -12,7 +12,7 @@ bool Smoother::load(Index v, bool soft) {
   fan_.start(place_);
   for (Index t : star) {
     const Tet& c = mesh_.tet(t);
-    const auto& f = EditMesh::kFace[mesh_.corner_index(t, v)];
+    const auto& f = kFaceCorners[mesh_.corner_index(t, v)];
     const Vec3 &a = mesh_.point(c[f[0]]), &b = mesh_.point(c[f[1]]), &d = mesh_.point(c[f[2]]);
     tets_[fan_.count] = t;
     fan_.add(a, b, d);
@@ -54,7 +54,7 @@ bool Smoother::keeps_boundary(Index v, const Vec3& p) const {
       if (i == own || !mesh_.marked(tets_[k], i)) continue;
       std::array<Vec3, 3> before, after;
       for (int j = 0; j < 3; ++j) {
-        const Index w = c[EditMesh::kFace[i][j]];
+        const Index w = c[kFaceCorners[i][j]];
         before[j] = mesh_.point(w);
         after[j] = w == v ? p : before[j];
       }

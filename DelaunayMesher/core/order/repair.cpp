@@ -1,6 +1,7 @@
 #include "order/repair.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "base/tet_geometry.h"
 
@@ -214,9 +215,10 @@ class Repairer {
     while (!pending.empty()) {
       const Index t = pending.back();
       pending.pop_back();
-      if (mesh_.ratio(t) > 0) continue;
+      if (mesh_.ratio(t) > 0 || straight_.contains(t)) continue;
       straightened.push_back(t);
       if (straighten_best_edge(t)) continue;
+      straight_.insert(t);
       for (int i = 0; i < 6; ++i) {
         mesh_.position(mesh_.middle(t, i)) = mesh_.straight_middle(t, i);
         for (Index e : around(t, i))
@@ -251,6 +253,7 @@ class Repairer {
   Context& context_;
   Stars stars_;
   std::vector<Index> touched_;
+  std::unordered_set<Index> straight_;  // elements without a curved edge: those without volume stay so
 };
 
 }  // namespace

@@ -5,7 +5,8 @@
 // interior corner points (the straight edges there follow), boundary mid-side nodes sliding on their CAD
 // face, and as a last resort boundary mid-side nodes put back on the straight edge. Method: steps along the
 // gradient of the worst ratio, by differences (compare Toulorge et al. 2013). Postcondition: every ratio is
-// positive.  Cost: some 100 us per bad element.
+// positive, but those of elements that have no volume with straight edges either.  Cost: some 100 us per bad
+// element.
 #pragma once
 
 #include <vector>

@@ -18,8 +18,10 @@ struct SecondOrder {
   std::vector<Index> straightened;  // tetrahedra that needed a straight-sided boundary edge: last resort
 };
 
-// Postcondition: every Bernstein coefficient of every element's Jacobian is positive (Johnen et al. 2013).
-// May move interior corner points of `mesh` to get there.
+// Precondition: check_volume_mesh(mesh).  Postcondition: every Bernstein coefficient of every element's
+// Jacobian is positive (Johnen et al. 2013), but of elements without volume.  Cost: a projection for each
+// boundary edge, some 100 us for each element to be repaired.  May move interior corner points of `mesh` to
+// get there.
 SecondOrder make_second_order(VolumeMesh& mesh, const Geometry& geometry, Context& context);
 
 }  // namespace dm

@@ -30,10 +30,9 @@ bool all_equal(const std::vector<double>& weights) {
 std::string pole_defect(const std::vector<Vec3>& poles, const std::vector<double>& weights) {
   if (!weights.empty() && weights.size() != poles.size()) return "its spline has a wrong number of weights";
   // Weights that are all the same say nothing: some exporters fill them with zeros.
-  for (const double w : weights) {
-    if (!(finite(w) && w > 0) && !all_equal(weights))
-      return "its spline has a weight that is not a positive number";
-  }
+  if (!all_equal(weights) &&
+      !std::all_of(weights.begin(), weights.end(), [](double w) { return finite(w) && w > 0; }))
+    return "its spline has a weight that is not a positive number";
   for (const Vec3& p : poles) {
     if (!finite(p.x) || !finite(p.y) || !finite(p.z)) return "its spline has a pole that is not a number";
   }
@@ -113,7 +112,8 @@ int KnotVector::span(double u) const {
   const auto begin = knots_.begin() + degree_, end = knots_.end() - 1 - degree_;
   int i = static_cast<int>(std::upper_bound(begin, end, u) - knots_.begin()) - 1;
   i = std::max(i, degree_);
-  while (knots_[i + 1] <= knots_[i]) i = i > degree_ ? i - 1 : i + 1;
+  while (i > degree_ && knots_[i + 1] <= knots_[i]) --i;
+  while (knots_[i + 1] <= knots_[i]) ++i;
   return i;
 }
 

@@ -71,6 +71,10 @@ void check_indices(const Plc& plc) {
       fail("bad_index", "Corner " + std::to_string(i) + " has a vertex or a point that does not exist.");
     }
   }
+  for (const Index face : plc.kept_faces)
+    if (!in_range(face, plc.face_solids.size())) fail("bad_index", "A face to keep does not exist.");
+  for (const Index edge : plc.kept_edges)
+    if (!in_range(edge, plc.edge_count)) fail("bad_index", "An edge to keep does not exist.");
 }
 
 // A face of a triangle that uses each point, for messages; -1 for points that none uses.

@@ -21,7 +21,6 @@ class SplineSurface final : public Surface {
   Vec3 project(const Vec3& p) const override;
   Vec3 normal(const Vec3& p) const override;
   double curvature(const Vec3& p) const override;
-  std::size_t sample_count() const { return lines_u_.size() * lines_v_.size(); }
 
  private:
   struct Foot {

@@ -19,14 +19,15 @@ inline double sharpness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   const Vec3 u = b - a, v = c - a, w = d - a, x = c - b, y = d - b;
   const Vec3 n[4] = {cross(y, x), cross(v, w), cross(w, u), cross(u, v)};
   const double l[4] = {1 / norm2(n[0]), 1 / norm2(n[1]), 1 / norm2(n[2]), 1 / norm2(n[3])};
+  if (!(l[0] + l[1] + l[2] + l[3] < HUGE_VAL)) return 1;  // a face without area: the worst there is
   double worst = -1;
   for (int k = 0; k < 6; ++k) {
     const auto [i, j] = kFacePairs[k];
     const double s = -dot(n[i], n[j]);
     const double q = s * std::abs(s) * l[i] * l[j];
-    if (!(q <= worst) && !(exempt >> k & 1)) worst = q;
+    if (q > worst && !(exempt >> k & 1)) worst = q;
   }
-  return worst == worst ? worst : 1;  // a flat face makes NaN: the worst there is
+  return worst;
 }
 
 // Bits of the dihedral angles of (corners, site) that lie on acute segments of the input.

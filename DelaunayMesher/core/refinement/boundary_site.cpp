@@ -55,10 +55,9 @@ bool BoundarySite::collect_patch(Index t, Index a, Index b) {
   std::sort(border_.begin(), border_.end());
   for (const Index tet : cavity_.tets) {
     if (!tets.marks(tet) || tets.is_ghost(tet)) continue;
-    const Tet& v = tets.corners(tet);
     for (int i = 0; i < 4; ++i) {
       if (!tets.marked(tet, i) || std::binary_search(border_.begin(), border_.end(), 4 * tet + i)) continue;
-      const Index label = complex.find(v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3]);
+      const Index label = label_of(mesh_, tet, i);
       if (!swallowed(label)) swallowed_.push_back(label);
     }
   }

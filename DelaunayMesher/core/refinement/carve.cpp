@@ -1,6 +1,7 @@
 #include "refinement/carve.h"
 
 #include <algorithm>
+#include <set>
 
 #include "refinement/angle_test.h"
 
@@ -66,6 +67,42 @@ Index carve_flat_tets(LabelledTriangulation& mesh) {
   return carved;
 }
 
+namespace {
+
+// Triangles that are no face of a tetrahedron any more, and segments that are no edge of a triangle.
+void drop_bare_boundary(VolumeMesh& mesh) {
+  const auto sorted = [](auto corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::vector<Triangle> faces;
+  for (const auto& [a, b, c, d] : mesh.tets)
+    for (const Triangle& face : {Triangle{b, c, d}, {a, c, d}, {a, b, d}, {a, b, c}})
+      faces.push_back(sorted(face));
+  std::sort(faces.begin(), faces.end());
+  std::size_t kept = 0;
+  std::set<Segment> edges;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto [a, b, c] = sorted(mesh.triangles[k]);
+    if (!std::binary_search(faces.begin(), faces.end(), Triangle{a, b, c})) continue;
+    edges.insert({Segment{a, b}, {b, c}, {a, c}});
+    mesh.triangles[kept] = mesh.triangles[k];
+    mesh.triangle_face[kept++] = mesh.triangle_face[k];
+  }
+  mesh.triangles.resize(kept);
+  mesh.triangle_face.resize(kept);
+  kept = 0;
+  for (std::size_t k = 0; k < mesh.segments.size(); ++k) {
+    if (!edges.contains(sorted(mesh.segments[k]))) continue;
+    mesh.segments[kept] = mesh.segments[k];
+    mesh.segment_edge[kept++] = mesh.segment_edge[k];
+  }
+  mesh.segments.resize(kept);
+  mesh.segment_edge.resize(kept);
+}
+
+}  // namespace
+
 std::vector<Vec3> leave_out_flat_tets(VolumeMesh& mesh) {
   std::vector<std::size_t> flat;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
@@ -91,6 +128,7 @@ std::vector<Vec3> leave_out_flat_tets(VolumeMesh& mesh) {
   mesh.tets.resize(kept);
   mesh.tet_solid.resize(kept);
   mesh.neighbours.clear();
+  if (!places.empty()) drop_bare_boundary(mesh);
   return places;
 }
 

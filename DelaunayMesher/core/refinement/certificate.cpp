@@ -43,11 +43,19 @@ void collect_faces(const VolumeMesh& mesh, const std::set<Index>& corners, Sharp
       if (all.contains(mesh.triangle_face[k])) sharp.faces_of.emplace(p, mesh.triangle_face[k]);
 }
 
-SharpInput find_sharp_input(const VolumeMesh& mesh) {
-  struct Wing {
-    Vec3 direction;  // from the segment into a triangle
-    Index face;
-  };
+// A triangle at a segment.
+struct Wing {
+  Vec3 direction, normal;  // from the segment into it, and square to it
+  Index face;
+};
+
+// Does the angle from one wing to another hold a part of a solid?  That of a notch does not.
+bool is_sharp_solid(const Wing& from, const Wing& to, const std::vector<std::array<Index, 2>>& face_solids) {
+  const bool in_front = dot(from.normal, to.direction) > 0;
+  return face_solids[from.face][in_front] != 0 && angle_between(from.direction, to.direction) < kAcuteAngle;
+}
+
+SharpInput find_sharp_input(const VolumeMesh& mesh, const std::vector<std::array<Index, 2>>& face_solids) {
   SharpInput sharp{std::vector<char>(mesh.points.size(), 0), {}, {}, {}};
   std::set<Index> corners;
   std::unordered_map<std::uint64_t, std::vector<Wing>> wings;  // by segment
@@ -58,7 +66,7 @@ SharpInput find_sharp_input(const VolumeMesh& mesh) {
       const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
       const Vec3 p = mesh.points[a], w = mesh.points[c] - p, axis = normalized(mesh.points[b] - p);
       if (const auto it = wings.find(BoundaryComplex::key(a, b)); it != wings.end())
-        it->second.push_back({w - dot(w, axis) * axis, mesh.triangle_face[k]});
+        it->second.push_back({w - dot(w, axis) * axis, cross(mesh.points[b] - p, w), mesh.triangle_face[k]});
       if (angle_between(axis, w) < kAcuteAngle / 2 && mesh.point_entity[a].dimension == 0) corners.insert(a);
     }
   }
@@ -66,7 +74,7 @@ SharpInput find_sharp_input(const VolumeMesh& mesh) {
     const auto& w = wings[BoundaryComplex::key(a, b)];
     for (std::size_t i = 0; i < w.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (angle_between(w[i].direction, w[j].direction) < kAcuteAngle) {
+        if (is_sharp_solid(w[i], w[j], face_solids)) {
           sharp.point[a] = sharp.point[b] = 1;
           if (w[i].face != w[j].face) sharp.faces.insert(std::minmax(w[i].face, w[j].face));
         }
@@ -110,14 +118,15 @@ BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const SharpIn
 
 }  // namespace
 
-std::vector<BelowTarget> certify(const VolumeMesh& mesh, const SizeField& size, double target_angle) {
+std::vector<BelowTarget> certify(const VolumeMesh& mesh, const std::vector<std::array<Index, 2>>& face_solids,
+                                 const SizeField& size, double target_angle) {
   std::vector<BelowTarget> out;
   SharpInput sharp;
   for (Index t = 0; t < static_cast<Index>(mesh.tets.size()); ++t) {
     const auto [a, b, c, d] = mesh.tets[t];
     const double angle = dihedral_range(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]).min;
     if (angle >= target_angle) continue;
-    if (out.empty()) sharp = find_sharp_input(mesh);
+    if (out.empty()) sharp = find_sharp_input(mesh, face_solids);
     out.push_back(explain(mesh, size, sharp, t, angle));
   }
   return out;

@@ -17,7 +17,7 @@ namespace dm {
 
 namespace {
 
-// Measured on prototypes and again here: docs/refinement.md has the figures behind each constant.
+// Measured on prototypes and again here; docs/refinement.md has the figures behind those that matter most.
 constexpr int kTries = 40;
 constexpr double kSlack = 1.15;      // circumradius over the bound up to which good tetrahedra stay
 constexpr std::size_t kAhead = 6;    // tetrahedra in work whose data is asked for
@@ -145,7 +145,7 @@ class Refinement {
     flips_before_ = report_.flips;
   }
 
-  // Morton order of the circumcentres' cells: neighbours in the list are neighbours in memory.
+  // Morton order of the centroids: neighbours in the list are neighbours in memory.
   void sort_along_curve(std::deque<Index>& list) const {
     Vec3 low = tets_.point(0), high = low;
     for (const Vec3& p : tets_.points())
@@ -232,7 +232,7 @@ class Refinement {
       if (cavity_.border.empty() || ((constrained_ || !big) && is_crowded(cavity_, site))) continue;
       const double s = evaluate_site(mesh_, cavity_, site, bound_, target_, best);
       if (s == kRejected) ++refused;
-      if (s <= target_) return commit_inside(site, constrained_), true;
+      if (s <= target_ && commit_inside(site, constrained_)) return true;
       if (s < best) best = s, best_site = site, best_constrained = constrained_;
     }
     if (!constrained && (refused || !big)) return false;
@@ -251,8 +251,7 @@ class Refinement {
     const bool found = constrained ? constrained_search_.find_cavity(site, tet, cavity_)
                                    : tets_.find_cavity(site, tet, true, cavity_) < 0;
     if (!found || cavity_.tets.empty()) return;
-    commit_inside(site, constrained);
-    ++report_.relaxed;
+    report_.relaxed += commit_inside(site, constrained);
   }
 
   // False when the site encroaches on the boundary: its cavity would swallow a labelled triangle.
@@ -296,12 +295,14 @@ class Refinement {
     hits_.push_back({label, 1});
   }
 
-  void commit_inside(const Vec3& site, bool constrained) {
-    if (report_.constrained && !is_ball(tets_, cavity_)) return;
+  // False when the cavity found is not a ball, as those of constrained sites may leave it.
+  bool commit_inside(const Vec3& site, bool constrained) {
+    if (report_.constrained && !is_ball(tets_, cavity_)) return false;
     tets_.insert(site, cavity_);
     ++report_.sites;
     report_.constrained += constrained;
     for (const Index t : cavity_.created) push_if_bad(t);
+    return true;
   }
 
   // Splits the labelled triangle that refused most sites; false when it may not be split.
@@ -459,8 +460,12 @@ void mark_acute_segments(LabelledTriangulation& mesh, double angle) {
           const Vec3 w = p[opposite_corner(complex, t, a, b)] - p[a];
           return normalized(w - dot(w, axis) * axis);
         };
-        const double opening = std::acos(std::clamp(dot(away(fan[i]), away(fan[j])), -1.0, 1.0));
-        if (opening * 180 / std::numbers::pi < angle) complex.set_acute(a, b);
+        const Vec3 one = away(fan[i]), other = away(fan[j]);
+        const double opening = std::acos(std::clamp(dot(one, other), -1.0, 1.0));
+        const auto& [q, r, s] = complex.corners(fan[i]);
+        const bool in_front = dot(area_vector(p[q], p[r], p[s]), other) > 0;
+        const bool solid_between = complex.solids(fan[i])[in_front] != 0;
+        if (solid_between && opening * 180 / std::numbers::pi < angle) complex.set_acute(a, b);
       }
   }
 }

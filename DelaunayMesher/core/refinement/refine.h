@@ -5,13 +5,13 @@
 // circumcentre, f_k growing with the try k; the site is taken when every new tetrahedron that is small enough
 // to stay has all dihedral angles above the target.  A site whose cavity would swallow a labelled boundary
 // triangle is refused; when that goes on, the triangle is split at a random point near its circumcentre on
-// the exact CAD surface.  Slivers that are left over are bad tetrahedra of later rounds.  Rounds run in the
-// order of a space-filling curve.  Rules R1 to R3 (docs/refinement.md): tetrahedra on labelled faces are
-// tested whatever their radius; a tetrahedron with two labelled faces of one CAD face belongs to the side
-// where its circumcentre lies. Source: Chew, Guaranteed-Quality Delaunay Meshing in 3D (1997). Precondition:
-// check_boundary holds. Postcondition: it still holds and the triangulation is Delaunay but for the
-// constrained sites; no tetrahedron of a solid is bad but those that the report lists. Cost: 1.5 to 3
-// proposals per site at 20 degrees.  Termination: docs/guarantees.md.
+// the exact CAD surface.  Slivers that are left over are bad tetrahedra of later rounds.  The first round
+// runs in the order of a space-filling curve.  Rules R1 to R3 (docs/refinement.md): tetrahedra on labelled
+// faces are tested whatever their radius; a tetrahedron with two labelled faces of one CAD face belongs to
+// the side where its circumcentre lies. Source: Chew, Guaranteed-Quality Delaunay Meshing in 3D (1997).
+// Precondition: check_boundary holds. Postcondition: it still holds and the triangulation is Delaunay but for
+// the constrained sites; the tetrahedra that are bad still are those that no site was found for. Cost: 1.5 to
+// 3 proposals per site at 20 degrees.  Termination: docs/guarantees.md.
 #pragma once
 
 #include "base/context.h"

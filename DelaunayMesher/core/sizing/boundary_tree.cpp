@@ -17,8 +17,11 @@ std::vector<Box> triangle_boxes(const Plc& plc) {
 inline double entry(const Box& box, const Vec3& origin, const Vec3& inverse, double to) {
   double from = 0;
   for (int i = 0; i < 3; ++i) {
+    if (std::isinf(inverse[i])) {  // in the plane of a side the products would be 0 * infinity
+      if (origin[i] < box.low[i] || origin[i] > box.high[i]) return HUGE_VAL;
+      continue;
+    }
     const double a = (box.low[i] - origin[i]) * inverse[i], b = (box.high[i] - origin[i]) * inverse[i];
-    // A ray within the plane of a side gives 0 * infinity = NaN, which min and max in this order ignore.
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
   }
@@ -86,10 +89,10 @@ Index BoundaryTree::solid_at(const Vec3& p) const {
   return first == second ? first : solid_along(p, kDirections[2]);
 }
 
-BoundaryTree::Foot BoundaryTree::nearest(const Vec3& p, double within) const {
+Index BoundaryTree::solid_by_nearest(const Vec3& p, double within) const {
   // Nearest to an edge or corner, several triangles tie: they must agree about the solid, or rays decide.
   constexpr double kTie = 1 + 1e-9;
-  Foot best{p, -1};
+  Index found = -1;
   bool agree = true;
   double best2 = within * within * kTie;
   const auto ask = [&](Index index) {
@@ -100,8 +103,8 @@ BoundaryTree::Foot BoundaryTree::nearest(const Vec3& p, double within) const {
     if (d2 > best2 * kTie) return;
     const Index solid =
         plc_.face_solids[plc_.triangle_face[index]][dot(p - q, area_vector(a, b, c)) > 0 ? 1 : 0];
-    agree = d2 * kTie < best2 || (agree && solid == best.solid);
-    if (d2 < best2) best = {q, solid}, best2 = d2;
+    agree = d2 * kTie < best2 || (agree && solid == found);
+    if (d2 < best2) found = solid, best2 = d2;
   };
   struct Entry {
     Index node;
@@ -121,36 +124,7 @@ BoundaryTree::Foot BoundaryTree::nearest(const Vec3& p, double within) const {
     stack[top++] = far;
     stack[top++] = near;
   }
-  if (!agree) best.solid = solid_at(p);
-  return best;
-}
-
-bool BoundaryTree::touches(const Box& query) const {
-  Index stack[128], top = 0;
-  stack[top++] = 0;
-  const Vec3 centre = query.centre();
-  const Vec3 half = 0.5 * query.extent();
-  while (top > 0) {
-    const BoxTree::Node& node = tree_.nodes()[stack[--top]];
-    if (!node.box.overlaps(query)) continue;
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = node.first + 1;
-      continue;
-    }
-    for (Index k = 0; k < node.count; ++k) {
-      const Triangle& t = plc_.triangles[tree_.order()[node.first + k]];
-      Box box;
-      for (const Index v : t) box.add(plc_.points[v]);
-      if (!box.overlaps(query)) continue;
-      const Vec3 near = nearest_on_triangle(centre, plc_.points[t[0]], plc_.points[t[1]], plc_.points[t[2]]);
-      // The plane through the nearest place, square to the way there, has the triangle on its far side; the
-      // box is clear if it lies on the near side.
-      const Vec3 d = near - centre;
-      if (norm2(d) <= half.x * std::abs(d.x) + half.y * std::abs(d.y) + half.z * std::abs(d.z)) return true;
-    }
-  }
-  return false;
+  return agree ? found : solid_at(p);
 }
 
 }  // namespace dm

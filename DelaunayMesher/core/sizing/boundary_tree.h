@@ -1,5 +1,5 @@
-// The PLC's triangles in a box tree: what a ray hits first, which solid a point is in, whether a box is
-// touched.  Used to measure walls and gaps, and to know which part of space will be meshed.
+// The PLC's triangles in a box tree: what a ray hits first, which solid a point is in.  Used to measure walls
+// and gaps, and to know which part of space will be meshed.
 #pragma once
 
 #include "plc/plc.h"
@@ -22,15 +22,9 @@ class BoundaryTree {
   // Solid (1-based) that p lies in, 0 = outside: by the side of the first triangle that rays from p hit, the
   // majority of three rays at most.  Not exact for points on the boundary.
   Index solid_at(const Vec3& p) const;
-  // Nearest place on the triangles and the solid that p lies in by their side.  within: a distance that is
-  // known not to be exceeded; it saves time.
-  struct Foot {
-    Vec3 place;
-    Index solid = 0;
-  };
-  Foot nearest(const Vec3& p, double within = HUGE_VAL) const;
-  // Conservative: true whenever a triangle touches the box.
-  bool touches(const Box& box) const;
+  // Solid that p lies in by the side of the nearest triangle.  within: a distance known not to be exceeded by
+  // it; it saves time.
+  Index solid_by_nearest(const Vec3& p, double within = HUGE_VAL) const;
   const Box& box() const { return tree_.nodes()[0].box; }  // of the whole PLC
 
  private:

@@ -34,7 +34,6 @@ class Octree {
   double largest() const { return largest_; }
   // Integral of 1 / h^3 over the inside of the domain.
   double inverse_volume() const { return inverse_volume_; }
-  std::size_t leaves() const { return values_.size(); }
 
  private:
   using Values = std::array<float, 8>;  // corner i at (i & 1, i >> 1 & 1, i >> 2 & 1)

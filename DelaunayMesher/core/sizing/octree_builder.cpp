@@ -265,7 +265,7 @@ void Octree::Builder::refine_domain() {
     while (cells_[i].place != Place::outside && edge(cells_[i]) > kCellPerSize * lowest(cells_[i])) {
       const std::array<Index, 8> parent = cells_[i].corner;
       const std::size_t before = cells_.size();
-      if (!split(static_cast<Index>(i))) return;
+      if (!split(static_cast<Index>(i))) break;
       for (std::size_t k = before - 1; k < cells_.size(); ++k) {
         Cell& child = cells_[k < before ? i : k];
         make_corners(child);
@@ -296,7 +296,7 @@ std::vector<float> Octree::Builder::corner_values() const {
       // side.
       const double away = distance(p, s.nearest(p));
       const bool outside = away <= kContinuedWithin * std::max(s.size, field_.floor) &&
-                           (place[i] == Place::outside || boundary_.nearest(p, away).solid == 0);
+                           (place[i] == Place::outside || boundary_.solid_by_nearest(p, away) == 0);
       if (outside) h = std::max(s.size + field_.growth * s.continued_distance(p), kLeastContinued * s.size);
     }
     values[i] = static_cast<float>(std::max(std::min<double>(h, c.cap), field_.floor));

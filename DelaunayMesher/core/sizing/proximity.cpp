@@ -121,8 +121,14 @@ class Prober {
     return {hit.distance, plc_.triangle_face[hit.triangle]};
   }
 
-  // Size by the widths on both sides of a place, infinity = none.
-  double size_at(const Vec3& p) {
+  // What the narrowest wall or gap at a place is like; face: on its other side.
+  struct Place {
+    double size = HUGE_VAL, width = 0;
+    Index face = -1;
+    bool wall = false;
+  };
+  // By the widths on both sides; infinite size: none.
+  Place place_at(const Vec3& p) {
     ++places_;
     const double range = local_size_ / (kTight * per_width_);  // beyond it, size is local_size_ or more
     const auto& solids = plc_.face_solids[face_];
@@ -130,31 +136,30 @@ class Prober {
     const double inside = std::max(range, local_size_);
     Width w[2] = {width(p, -normal_, solids[0] > 0 ? inside : range),
                   width(p, normal_, solids[1] > 0 ? inside : range)};
-    if (w[0].t == HUGE_VAL && w[1].t == HUGE_VAL) return HUGE_VAL;
+    if (w[0].t == HUGE_VAL && w[1].t == HUGE_VAL) return {};
     // A wall may be tight by something farther away than a wall counts by itself.
     for (int side = 0; side < 2; ++side)
       if (w[side].t == HUGE_VAL && kTightWithin * w[1 - side].t > range)
         w[side] = width(p, side == 0 ? -normal_ : normal_, kTightWithin * w[1 - side].t);
-    double size = HUGE_VAL;
+    Place place;
     for (int side = 0; side < 2; ++side) {
       const double t = w[side].t, behind = w[1 - side].t;
       if (t == HUGE_VAL) continue;
       const bool wall = solids[side] > 0;
       const bool tight = behind <= kTightWithin * t, bonded = solids[1 - side] > 0;
       const double h = (tight ? kTight : !wall ? kGap : bonded ? bonded_ : free_) * t * per_width_;
-      if (h < size) size = h, width_ = t, other_face_ = w[side].face, wall_ = wall;
+      if (h < place.size) place = {h, t, w[side].face, wall};
     }
-    return size;
+    return place;
   }
 
   // Of corners in the same cube without a wall or gap, one is enough.
-  double size_unless_clear(const Vec3& p) {
+  Place place_unless_clear(const Vec3& p) {
     const std::uint64_t here = cube(p);
-    if (clear_.find(here) != clear_.end() || clear_corners_.find(here) != clear_corners_.end())
-      return HUGE_VAL;
-    const double size = size_at(p);
-    if (size == HUGE_VAL) clear_corners_.insert(here);
-    return size;
+    if (clear_.find(here) != clear_.end() || clear_corners_.find(here) != clear_corners_.end()) return {};
+    const Place place = place_at(p);
+    if (place.size == HUGE_VAL) clear_corners_.insert(here);
+    return place;
   }
 
   void visit(const std::array<Vec3, 3>& p, int depth) {
@@ -163,23 +168,26 @@ class Prober {
     if (edge <= 4 * local_size_)
       if (const auto known = clear_.find(cube(centre)); known != clear_.end())
         return known->second.add(walls, area(p));
-    double low = size_at(centre), high = low;
-    if (edge > std::min(local_size_, low))
+    Place narrow = place_at(centre);
+    double high = narrow.size;
+    if (edge > std::min(local_size_, narrow.size))
       for (const Vec3& corner : p) {
-        const double s = size_unless_clear(0.9 * corner + 0.1 * centre);
-        low = std::min(low, s);
-        high = std::max(high, s);
+        const Place place = place_unless_clear(0.9 * corner + 0.1 * centre);
+        if (place.size < narrow.size) narrow = place;
+        high = std::max(high, place.size);
       }
+    const double low = narrow.size;
     const bool found = low < local_size_;
     const bool even = std::min(high, local_size_) <= 1.5 * low;
     const bool enough =
         found ? (even || edge <= 2 * low) && edge <= 16 * local_size_ : edge <= 4 * local_size_;
     if (enough || depth == kDeepestSplit || places_ > kMostPlaces) {
       const std::size_t begin = walls.size();
-      if (low < HUGE_VAL && wall_) walls.push_back({p, width_});
+      if (low < HUGE_VAL && narrow.wall) walls.push_back({p, narrow.width});
       if (!found) clear_.try_emplace(cube(centre), Sample{begin, walls.size(), area(p)});
       if (found)
-        patches.push_back({p, low, local_size_, width_, curvature(centre), wall_, empty_side(plc_, face_)});
+        patches.push_back({p, low, local_size_, narrow.width, curvature(centre, narrow.face), narrow.wall,
+                           empty_side(plc_, face_)});
       return;
     }
     // In two across the longest edge, so that slivers make few parts.
@@ -191,20 +199,19 @@ class Prober {
     visit({half, b, c}, depth + 1);
   }
 
-  double curvature(const Vec3& p) const {
+  double curvature(const Vec3& p, Index other) const {
     const double own = geometry_.is_plane(face_) ? 0 : geometry_.curvature(face_, p);
-    const bool flat = other_face_ < 0 || geometry_.is_plane(other_face_);
-    return std::max(own, flat ? 0 : geometry_.curvature(other_face_, p));
+    const bool flat = other < 0 || geometry_.is_plane(other);
+    return std::max(own, flat ? 0 : geometry_.curvature(other, p));
   }
 
   const Plc& plc_;
   const Geometry& geometry_;
   const BoundaryTree& boundary_;
   SharedEdges shared_;
-  double free_, bonded_, per_width_, epsilon_ = 0, local_size_ = 0, width_ = 0;
-  Index triangle_ = -1, face_ = -1, other_face_ = -1;
+  double free_, bonded_, per_width_, epsilon_ = 0, local_size_ = 0;
+  Index triangle_ = -1, face_ = -1;
   Vec3 normal_;
-  bool wall_ = false;
   std::int64_t places_ = 0;
   std::unordered_set<std::uint64_t> clear_corners_;
   std::unordered_map<std::uint64_t, Sample> seen_,

@@ -17,7 +17,7 @@ void check_sizes(const std::vector<double>& sizes, const char* what, std::int8_t
     if (sizes[i] > 0) continue;
     throw Failure("sizing", "bad_size",
                   std::string("The size given for a ") + what + " must be greater than zero.", {},
-                  {dimension, static_cast<Index>(i)});
+                  {dimension, static_cast<Index>(dimension == 3 ? i + 1 : i)});
   }
 }
 

@@ -2,8 +2,8 @@
 // out.
 //
 // Precondition: check_plc; collect() before anything is changed, load() before a face is.  Postcondition: the
-// triangles cover the same faces; after finish() those left out are gone.  Cost: logarithmic in the triangles
-// of the face at hand, each.
+// triangles cover the same faces; after finish() those left out are gone.  Cost: of a division
+// or flip about the triangles at its ends, of a point left out those of the face.
 #pragma once
 
 #include <map>

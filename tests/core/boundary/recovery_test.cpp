@@ -144,6 +144,23 @@ TEST_CASE("complex: a segment that is an edge of no triangle any more is dropped
   CHECK(complex.segments().size() >= before - 1 - 2 * static_cast<std::size_t>(count));
 }
 
+TEST_CASE("complex: many faces at one edge are all found, and too many are not left out in silence") {
+  const auto fan_of = [](Index faces) {
+    SurfaceMesh surface;
+    surface.points = {{0, 0, 0}, {0, 0, 1}};
+    for (Index k = 0; k < faces; ++k) {
+      surface.points.push_back({std::cos(0.01 * k), std::sin(0.01 * k), 0});
+      surface.triangles.push_back({0, 1, k + 2});
+      surface.triangle_face.push_back(k);
+    }
+    surface.point_entity.assign(surface.points.size(), {0, 0});
+    return BoundaryComplex(surface, std::vector<std::array<Index, 2>>(faces, {1, 2}));
+  };
+  BoundaryComplex::Fan fan;
+  CHECK(fan_of(40).triangles_at(0, 1, fan) == 40);
+  CHECK_THROWS_AS(fan_of(kMaxFan + 1).triangles_at(0, 1, fan), Failure);
+}
+
 TEST_CASE("tag_solids: an open boundary is noticed") {
   const Case c{"box", shapes::box(6, 4, 3), 0.6};
   Stages stages(c);

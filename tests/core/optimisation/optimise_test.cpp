@@ -16,10 +16,7 @@ namespace {
 
 OptimiseReport run(sample::Sample& s, Context& context) {
   const Geometry geometry(s.plc, s.records);
-  SizeOptions sizes;
-  sizes.max_size = 1;
-  const SizeField field(s.plc, geometry, sizes, context);
-  const auto report = optimise(s.mesh, geometry, field, {}, context);
+  const auto report = optimise(s.mesh, geometry, {}, context);
   check_volume_mesh(s.mesh);
   check_on_geometry(s.mesh, geometry, 1e-9);
   return report;
@@ -109,11 +106,8 @@ TEST_CASE("two solids keep the faces between them") {
   check_volume_mesh(m);
   const Geometry geometry(s.plc, s.records);
   Context context;
-  SizeOptions sizes;
-  sizes.max_size = 1;
-  const SizeField field(s.plc, geometry, sizes, context);
   const auto before = sample::angles(m);
-  optimise(m, geometry, field, {}, context);
+  optimise(m, geometry, {}, context);
   check_volume_mesh(m);
   check_on_geometry(m, geometry, 1e-9);
   CHECK(sample::angles(m).min >= before.min);

@@ -170,6 +170,23 @@ TEST_CASE("what cannot be bent is straightened and listed") {
   check_promises(s, order, geometry);
 }
 
+TEST_CASE("elements without volume end the repair of the second order, too") {
+  sample::Sample s;
+  for (int i = 0; i < 5; ++i)  // on a great circle: bent or straight, they have no volume
+    s.mesh.points.push_back({std::cos(1.2 * i), std::sin(1.2 * i), 0});
+  s.mesh.point_entity.assign(5, {0, 0});
+  s.mesh.tets = {{0, 1, 2, 3}, {4, 1, 2, 3}};
+  sample::link(s.mesh);
+  Index plane = -1;
+  sample::add_boundary(s.mesh, [&](const Triangle&) { return ++plane; });
+  s.records.faces.assign(s.mesh.triangles.size(), sample::sphere(1));
+  s.plc = sample::boundary_plc(s.mesh, static_cast<Index>(s.mesh.triangles.size()), 0);
+  const Geometry geometry(s.plc, s.records);
+  Context context;
+  const auto order = make_second_order(s.mesh, geometry, context);
+  CHECK(order.straightened.size() == 2);
+}
+
 // A prism between two triangles at heights `floor` and `roof`; all elements share an interior point at height
 // `apex`.  The floor stands for a piece of the unit sphere, which can bulge above that point; the other faces
 // are planes.

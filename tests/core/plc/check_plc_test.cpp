@@ -150,6 +150,12 @@ TEST_CASE("indices and lengths") {
   plc.corner_vertex[0] = 8;
   CHECK(defect(plc).code == "bad_index");
   plc = box();
+  plc.kept_faces = {6};
+  CHECK(defect(plc).code == "bad_index");
+  plc = box();
+  plc.kept_edges = {12};
+  CHECK(defect(plc).code == "bad_index");
+  plc = box();
   plc.triangles[7][1] = plc.triangles[7][0];
   CHECK(defect(plc).code == "collapsed_triangle");
   plc = box();

@@ -18,6 +18,7 @@ using namespace dm;
 namespace {
 
 struct Refined {
+  Plc plc;
   Geometry geometry;
   Context context;
   SizeField size;
@@ -27,7 +28,8 @@ struct Refined {
   RefineReport report;
 
   Refined(const shapes::Shape& s, double h, double target = 20, std::uint64_t seed = 1, int threads = 1)
-      : geometry(s.plc, s.records),
+      : plc(s.plc),
+        geometry(plc, s.records),
         context(keyed(seed, threads)),
         size(s.plc, geometry, options(h), context),
         surface(mesh_surfaces(s.plc, geometry, size, {}, context)),
@@ -90,7 +92,7 @@ TEST_CASE("refine: target angle, size and exact Delaunay property on every shape
     CHECK(r.report.constrained == 0);
     const VolumeMesh m = extract_volume_mesh(r.mesh);
     CHECK(smallest_angle(m) >= 20);
-    CHECK(certify(m, r.size, 20).empty());
+    CHECK(certify(m, r.plc.face_solids, r.size, 20).empty());
     const auto edges = relative_edges(m, r.size);
     CHECK(edges[edges.size() / 2] > 0.85);
     CHECK(edges[edges.size() / 2] < 1.1);
