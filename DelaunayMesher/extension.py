@@ -9,13 +9,15 @@ from . import __version__
 from .errors import MeshError
 
 NAME = "DelaunayMesher._core"
+REPOSITORY = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+COMPILED = os.path.join(REPOSITORY, "compiled")  # not on sys.path: the package in there has no window
 
 
 def load():
     """The module DelaunayMesher._core; MeshError telling what to do when it is missing or does not load.
 
-    FreeCAD's Addon Manager unpacks this package without its compiled part, which then comes from a wheel of
-    the same version elsewhere on sys.path.
+    A clone comes without its compiled part, which is then taken from a wheel of the same version, installed
+    into the clone's folder `compiled` or elsewhere on sys.path.
     """
     try:
         from . import _core
@@ -26,7 +28,8 @@ def load():
                 "extension",
                 "no_extension",
                 "the compiled part of DelaunayMesher is missing or was built for another Python (%s). "
-                "Run 'bash scripts/setup.sh' in the repository, or 'pip install DelaunayMesher'" % error,
+                "In %s run 'bash scripts/setup.sh', or, with FreeCAD's version of Python, "
+                "'python -m pip install --upgrade --no-deps --target compiled .'" % (error, REPOSITORY),
             ) from None
     return _core
 
@@ -35,7 +38,7 @@ def _load_from_wheel():
     """The core of another copy of this package, or None."""
     if NAME in sys.modules:
         return sys.modules[NAME]
-    for folder in sys.path:
+    for folder in (COMPILED, *sys.path):
         spec = PathFinder.find_spec(NAME, [os.path.join(folder, "DelaunayMesher")])
         if spec is None or spec.loader is None:
             continue

@@ -18,11 +18,16 @@ MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", ".bdf", ".n
 
 def check_output(path):
     """Raise InputError when `path` cannot be written: unknown format, no folder, no permission."""
-    folder = os.path.dirname(os.path.abspath(str(path)))
+    place = os.path.abspath(str(path))
+    folder = os.path.dirname(place)
     if not os.path.isdir(folder):
         raise _unwritable("%s: there is no folder %s" % (path, folder))
-    if not os.access(str(path) if os.path.exists(str(path)) else folder, os.W_OK):
-        raise _unwritable("%s: no permission to write there" % path)
+    if not os.access(folder, os.W_OK):  # the writers need a folder of their own beside the file
+        raise _unwritable("%s: no permission to write into %s" % (path, folder))
+    if os.path.isdir(place):
+        raise _unwritable("%s is a folder" % path)
+    if os.path.exists(place) and not os.access(place, os.W_OK):
+        raise _unwritable("%s: no permission to replace it" % path)
     if ending_of(path) == FREECAD_ENDING:
         return
     if ending_of(path) not in MESH_ENDINGS:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .cadprocess import ending_of
 from .errors import InputError
 from .polygons import triangulate_facet
 
@@ -25,7 +26,7 @@ class Surface(NamedTuple):
 
 def read_surface(path):
     """Surface in the file `path`, by its ending."""
-    ending = _ending(path)
+    ending = ending_of(path)
     if ending not in READERS:
         known = ", ".join(sorted(READERS))
         raise unreadable(
@@ -48,11 +49,6 @@ def read_surface(path):
 def unreadable(message, code="unreadable"):
     """The InputError for a file that cannot be read."""
     return InputError("read", code, message)
-
-
-def _ending(path):
-    match = re.search(r"\.[^./\\]+$", str(path).lower())
-    return match.group(0) if match else ""
 
 
 def _read_stl(path):

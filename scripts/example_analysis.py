@@ -20,13 +20,10 @@ import FreeCAD  # noqa: E402
 import numpy as np  # noqa: E402
 import ObjectsFem  # noqa: E402
 import Part  # noqa: E402
-from femtools.ccxtools import FemToolsCcx  # noqa: E402
 
 from DelaunayMesher import document  # noqa: E402
 from DelaunayMesher.quality import dihedral_angles  # noqa: E402
 
-# FreeCAD 1.0 has spelt it anew.
-make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
 OUTPUT = os.path.join(ROOT, "example_output")
 MAX_SIZE = float(os.environ.get("EXAMPLE_SIZE", "5.0"))  # mm
 FORCE = 8000.0  # N
@@ -45,10 +42,9 @@ def face_names(part, wanted):
 
 
 def load_case(file, part):
-    """Analysis with steel, a fixed foot and a force on the bore along x; returns (analysis, solver)."""
+    """A new analysis with a solver, steel, a fixed foot and a force on the bore along x."""
     analysis = ObjectsFem.makeAnalysis(file, "Analysis")
-    solver = make_solver(file, "CalculiX")
-    solver.GeometricalNonlinearity = "linear"
+    document.add_solver(analysis).GeometricalNonlinearity = "linear"
     material = ObjectsFem.makeMaterialSolid(file, "Steel")
     card = material.Material
     card.update(Name="Steel", YoungsModulus="210000 MPa", PoissonRatio="0.30", Density="7900 kg/m^3")
@@ -61,29 +57,10 @@ def load_case(file, part):
     force.Force = FORCE if FreeCAD.Version()[0] == "0" else "%g N" % FORCE
     force.Direction = (part, face_names(part, lambda f: f.BoundBox.XMax < 1e-6)[:1])
     force.Reversed = True
-    for item in (solver, material, fixed, force):
+    for item in (material, fixed, force):
         analysis.addObject(item)
     file.recompute()
-    return analysis, solver
-
-
-def solve(analysis, solver, folder):
-    """Write the input, run CalculiX, read the results; returns the result object."""
-    tool = FemToolsCcx(analysis, solver)
-    tool.update_objects()
-    tool.setup_working_dir(folder, create=True)
-    tool.setup_ccx()
-    problem = tool.check_prerequisites()
-    if problem:
-        raise RuntimeError(problem)
-    tool.purge_results()
-    tool.write_inp_file()
-    tool.ccx_run()
-    tool.load_results()
-    found = [item for item in analysis.Group if item.isDerivedFrom("Fem::FemResultObject")]
-    if not found:
-        raise RuntimeError("CalculiX gave no result")
-    return found[0]
+    return analysis
 
 
 def node_fields(result, count):
@@ -118,13 +95,13 @@ def summary(mesh, angles, seconds, moved, stress):
 def main():
     os.makedirs(OUTPUT, exist_ok=True)
     file, part = open_part()
-    analysis, solver = load_case(file, part)
+    analysis = load_case(file, part)
     start = time.perf_counter()
     target = document.add_mesh(part, analysis=analysis, max_size=MAX_SIZE, order=2)
     mesh = document.run(target)
     seconds = {**mesh.seconds, "meshing in all": time.perf_counter() - start}
     start = time.perf_counter()
-    result = solve(analysis, solver, os.path.join(OUTPUT, "calculix"))
+    result = document.solve(target)
     seconds["CalculiX"] = time.perf_counter() - start
     moved, stress = node_fields(result, len(mesh.points))
     angles = dihedral_angles(mesh.points, mesh.tets).min(axis=1)

@@ -189,14 +189,17 @@ def test_missing_extension_says_what_to_do(monkeypatch):
     assert "setup.sh" in str(caught.value)
 
 
-def test_extension_from_a_wheel_elsewhere(tmp_path):
-    """A copy of the package without its compiled part uses that of an installed wheel."""
+@pytest.mark.parametrize("folder", ["wheel", "mod/compiled"])
+def test_extension_from_a_wheel_elsewhere(tmp_path, folder):
+    """A copy of the package without its compiled part uses that of an installed wheel: one on the search
+    path, or the one in the copy's own folder.
+    """
     shutil.copytree(
         ROOT / "DelaunayMesher", tmp_path / "mod" / "DelaunayMesher", ignore=shutil.ignore_patterns("_core*")
     )
-    (tmp_path / "wheel" / "DelaunayMesher").mkdir(parents=True)
+    (tmp_path / folder / "DelaunayMesher").mkdir(parents=True)
     for path in (ROOT / "DelaunayMesher").glob("_core*"):
-        shutil.copy(path, tmp_path / "wheel" / "DelaunayMesher")
+        shutil.copy(path, tmp_path / folder / "DelaunayMesher")
     code = "import DelaunayMesher as d; print(len(d.delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])))"
     environment = {
         **os.environ,

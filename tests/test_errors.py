@@ -1,3 +1,4 @@
+import ast
 import pickle
 import re
 from pathlib import Path
@@ -34,6 +35,30 @@ def test_errors_travel_between_processes():
     error = pickle.loads(pickle.dumps(InputError("read", "bad_facet", "text", (1, 2, 3), "Face1")))
     assert type(error) is InputError
     assert error.as_dict()["place"] == (1.0, 2.0, 3.0)
+
+
+def stages_raised():
+    """Where errors come from: the first arguments in the Python and the C++ sources."""
+    calls = ("MeshError", "InputError", "mesh_errors", "patience", "_stage")
+    found = set()
+    for path in ROOT.glob("DelaunayMesher/**/*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in calls:
+                found |= {word.value for word in node.args[:1] if isinstance(word, ast.Constant)}
+    for path in [*ROOT.glob("DelaunayMesher/core/**/*.cpp"), *ROOT.glob("DelaunayMesher/core/**/*.h")]:
+        found |= set(re.findall(r'(?:Failure|begin|stop)\(\s*"(\w+)"', path.read_text(encoding="utf-8")))
+    return found
+
+
+def test_every_stage_has_a_name_in_the_window_and_is_documented():
+    tree = ast.parse((ROOT / "DelaunayMesher" / "gui" / "explain.py").read_text(encoding="utf-8"))
+    table = next(node.value for node in tree.body if isinstance(node, ast.Assign))
+    named = set(ast.literal_eval(table))
+    raised = stages_raised()
+    assert {"options", "read", "plc", "boundary", "write", "solve"} <= raised
+    assert raised - named == set()
+    section = (ROOT / "docs" / "errors.md").read_text().split("## Stages")[1].split("##")[0]
+    assert named == set(re.findall(r"`(\w+)`", section))
 
 
 def test_every_reason_code_is_documented():

@@ -1,3 +1,4 @@
+import os
 import tracemalloc
 
 import numpy as np
@@ -80,6 +81,23 @@ def test_what_cannot_be_written(tmp_path):
     with pytest.raises(InputError):
         two_tets(2).write(tmp_path / "a.mesh")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("ending", [".vtu", ".inp", ".FCStd"])
+def test_permissions_are_asked_for_before_meshing(tmp_path, monkeypatch, ending):
+    path = tmp_path / ("a" + ending)
+    path.write_text("an old mesh")
+    meshfile.check_output(path)
+    locked = []
+    real = os.access
+    monkeypatch.setattr(os, "access", lambda place, mode: str(place) not in locked and real(place, mode))
+    for place, words in ((tmp_path, "permission to write into"), (path, "permission to replace")):
+        locked[:] = [str(place)]
+        with pytest.raises(InputError, match=words):
+            meshfile.check_output(path)
+    (tmp_path / "folder.vtu").mkdir()
+    with pytest.raises(InputError, match="is a folder"):
+        meshfile.check_output(tmp_path / "folder.vtu")
 
 
 def test_nodes_of_elements():

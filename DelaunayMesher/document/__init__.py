@@ -15,11 +15,10 @@ from .fcstd import write_fcstd  # noqa: E402
 from .femmesh import fem_mesh  # noqa: E402
 from .mesh_object import add_mesh, mesh_shape, run  # noqa: E402
 from .plc_from_shape import convert, plc_from_shape  # noqa: E402
-from .read_shape import CAD_SUFFIXES, read_shape  # noqa: E402
+from .read_shape import read_shape  # noqa: E402
 from .size_region import add_size_region  # noqa: E402
 
 __all__ = [
-    "CAD_SUFFIXES",
     "add_mesh",
     "add_size_region",
     "add_solver",

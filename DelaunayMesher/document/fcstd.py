@@ -17,8 +17,7 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
     import FreeCAD
 
     from .femmesh import fill, put
-    from .mesh_object import add_mesh, describe, size_rows
-    from .properties import set_options
+    from .mesh_object import add_mesh, describe, store_options
 
     filling = fill(mesh, aliases=aliases)
     document = FreeCAD.newDocument("Mesh", hidden=True, temp=True)
@@ -28,8 +27,7 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
             part.Shape = shape
             target = add_mesh(part)
             if options is not None:
-                set_options(target, options)
-                target.Sizes = size_rows(options.sizes)
+                store_options(target, options)
             describe(target, mesh)
         else:
             target = document.addObject("Fem::FemMeshObject", "FEMMesh")
@@ -49,4 +47,4 @@ def save(document, path):
             document.saveAs(draft)
             os.replace(draft, path)
     except OSError as error:
-        raise InputError("output", "unwritable", "%s: %s" % (path, error.strerror)) from None
+        raise InputError("write", "unwritable", "%s: %s" % (path, error.strerror or error)) from None

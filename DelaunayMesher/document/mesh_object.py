@@ -92,15 +92,20 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
     MeshDelaunay(target)
     target.Shape = part
     target.Label = "%s_Mesh" % part.Label
-    set_options(target, chosen)
-    target.Sizes = size_rows(chosen.sizes)
     attach_view(target)
-    for region in chosen.regions:
-        add_size_region(target, region)
+    store_options(target, chosen)
     analysis = analysis or active_analysis(document)
     if analysis:
         analysis.addObject(target)
     return target
+
+
+def store_options(target, options):
+    """Write a MeshOptions into a new mesh object; each of its regions becomes a size region."""
+    set_options(target, options)
+    target.Sizes = size_rows(options.sizes)
+    for region in options.regions:
+        add_size_region(target, region)
 
 
 def size_rows(sizes):

@@ -2,11 +2,10 @@
 
 import os
 
+from ..cadprocess import CAD_ENDINGS, ending_of
 from ..errors import InputError
 from .find_freecad import find_freecad
 from .placement import global_shape
-
-CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep", ".brp", ".fcstd")
 
 
 def read_shape(path, warnings=None):
@@ -21,20 +20,19 @@ def read_shape(path, warnings=None):
     from .sewing import with_solids
 
     path = os.fspath(path)
-    suffix = os.path.splitext(path)[1].lower()
-    if suffix not in CAD_SUFFIXES:
-        raise InputError("plc", "unknown_format", "%s is no CAD file (%s)" % (path, " ".join(CAD_SUFFIXES)))
+    if ending_of(path) not in CAD_ENDINGS:
+        raise InputError("read", "unknown_format", "%s is no CAD file (%s)" % (path, " ".join(CAD_ENDINGS)))
     if not os.path.isfile(path):
-        raise InputError("plc", "unreadable", "there is no file %s" % path)
-    if suffix == ".fcstd":
+        raise InputError("read", "unreadable", "there is no file %s" % path)
+    if ending_of(path) == ".fcstd":
         return shape_of_document(path)
     shape = Part.Shape()
     try:
         shape.read(path)
     except Exception as error:  # FreeCAD raises Part.OCCError, RuntimeError, ... by format
-        raise InputError("plc", "unreadable", "FreeCAD cannot read %s: %s" % (path, words(error))) from error
+        raise InputError("read", "unreadable", "FreeCAD cannot read %s: %s" % (path, words(error))) from error
     if shape.isNull():
-        raise InputError("plc", "unreadable", "FreeCAD finds nothing in %s" % path)
+        raise InputError("read", "unreadable", "FreeCAD finds nothing in %s" % path)
     return with_solids(shape, [] if warnings is None else warnings)
 
 
@@ -54,7 +52,7 @@ def shape_of_document(path):
     try:
         document = FreeCAD.openDocument(path, True)
     except Exception as error:  # a broken archive raises whatever its first broken part raises
-        raise InputError("plc", "unreadable", "FreeCAD cannot open %s: %s" % (path, error)) from error
+        raise InputError("read", "unreadable", "FreeCAD cannot open %s: %s" % (path, error)) from error
     try:
         return shape_of_solids(document)
     finally:
@@ -67,7 +65,7 @@ def shape_of_solids(document):
 
     objects = solid_objects(document)
     if not objects:
-        raise InputError("plc", "no_solid", "%s holds no object with a solid" % document.FileName)
+        raise InputError("read", "no_solid", "%s holds no object with a solid" % document.FileName)
     shapes = [global_shape(item).copy() for item in objects]
     return shapes[0] if len(shapes) == 1 else Part.makeCompound(shapes)
 

@@ -83,6 +83,28 @@ class RefineHere:
         refine_faces.refine_here(FreeCADGui.Selection.getSelectionEx())
 
 
+class GroupElements:
+    """Make a FreeCAD mesh group of our mesh from the selected faces, edges or vertices."""
+
+    def GetResources(self):
+        return {
+            "Pixmap": icon("mesh_group"),
+            "MenuText": tr("Mesh group"),
+            "ToolTip": tr(
+                "A named group of the mesh at the selected faces, edges or vertices of a part that has a "
+                "mesh object"
+            ),
+        }
+
+    def IsActive(self):
+        return has_elements()
+
+    def Activated(self):
+        from . import refine_faces
+
+        refine_faces.group(FreeCADGui.Selection.getSelectionEx())
+
+
 class ShowQuality:
     """Open the quality panel of the selected mesh object."""
 
@@ -155,7 +177,8 @@ class Solve:
             "Pixmap": icon("solve"),
             "MenuText": tr("Solve"),
             "ToolTip": tr(
-                "Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh yet"
+                "Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh of "
+                "the part and options as they are now"
             ),
         }
 
@@ -172,6 +195,7 @@ COMMANDS = {
     "DelaunayMesher_MeshSolid": MeshSolid(),
     "DelaunayMesher_RefineFaces": RefineFaces(),
     "DelaunayMesher_RefineHere": RefineHere(),
+    "DelaunayMesher_Group": GroupElements(),
     "DelaunayMesher_Quality": ShowQuality(),
     "DelaunayMesher_Fix": Fix(),
     "DelaunayMesher_Force": Load(),

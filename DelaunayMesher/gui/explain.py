@@ -3,6 +3,9 @@
 from .texts import tr
 
 STAGES = {
+    "options": "Options",
+    "document": "FreeCAD",
+    "extension": "Compiled part",
     "read": "Reading",
     "plc": "Reading the shape",
     "sizing": "Size field",
@@ -15,8 +18,10 @@ STAGES = {
     "certificate": "Certificate",
     "write": "FEM mesh",
     "quality": "Quality figures",
+    "kernel": "Triangulation",
+    "check": "Check of the mesh",
+    "view": "3D view",
     "solve": "CalculiX",
-    "options": "Options",
 }
 
 

@@ -4,6 +4,7 @@ import traceback
 from contextlib import contextmanager
 
 import FreeCAD
+from PySide import QtCore, QtGui
 
 from ..errors import MeshError
 
@@ -18,6 +19,17 @@ def mesh_errors(stage):
     except Exception as error:
         FreeCAD.Console.PrintLog(traceback.format_exc())
         raise MeshError(stage, "internal", "%s: %s" % (type(error).__name__, error)) from error
+
+
+@contextmanager
+def patience(stage):
+    """mesh_errors(), and the cursor tells to wait."""
+    QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+    try:
+        with mesh_errors(stage):
+            yield
+    finally:
+        QtGui.QApplication.restoreOverrideCursor()
 
 
 @contextmanager

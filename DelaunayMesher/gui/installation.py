@@ -4,7 +4,9 @@ import os
 import platform
 import sys
 
-from .texts import RESOURCES, tr
+from .texts import tr
+
+STABLE_SINCE = 12  # the wheel of Python 3.12 serves all later versions
 
 
 def problem():
@@ -21,8 +23,10 @@ def problem():
 
 def instructions(error):
     """Text that tells how to get the compiled part."""
-    folder = os.path.dirname(RESOURCES)
+    from ..extension import COMPILED, REPOSITORY
+
     python = "%d.%d" % sys.version_info[:2]
+    wheel = "delaunaymesher-...-cp3%d-....whl" % min(sys.version_info[1], STABLE_SINCE)
     lines = [
         tr("The compiled part of Delaunay Mesher could not be loaded."),
         "",
@@ -30,13 +34,11 @@ def instructions(error):
         % (python, platform.system(), platform.machine()),
         "",
         tr("On Debian, run in a terminal, then start FreeCAD again:"),
-        "    bash '%s'" % os.path.join(folder, "scripts", "setup.sh"),
+        "    bash '%s'" % os.path.join(REPOSITORY, "scripts", "setup.sh"),
         "",
-        tr(
-            "Elsewhere, install the wheel for this Python and this system into a folder beside the workbench:"
-        ),
-        "    python -m pip install --no-deps --target '%s-core' DelaunayMesher-...-cp%s-....whl"
-        % (folder, python.replace(".", "")),
+        tr("Elsewhere, with a Python of this version and a C++ compiler:"),
+        '    python%s -m pip install --upgrade --no-deps --target "%s" "%s"' % (python, COMPILED, REPOSITORY),
+        tr("or without a compiler, with a wheel for this system instead of the last name: %s") % wheel,
         "",
         tr("Details: %s") % error.message,
     ]

@@ -4,16 +4,18 @@ import FreeCADGui
 import numpy as np
 from pivy import coin
 
+from ..errors import MeshError
 from .colours import palette, quality_scale, stored_colour
+from .texts import tr
 
 COLOURS = 64
 
 
 class Overlay:
-    """A branch of the scene of one view; remove() takes it away again."""
+    """A branch of the scene of one view; remove() takes it away again.  MeshError without a 3D view."""
 
     def __init__(self, document):
-        self.view = FreeCADGui.getDocument(document.Name).ActiveView
+        self.view = view_of(document)
         self.root = coin.SoSeparator()
         self.surface = coin.SoSeparator()
         self.chosen = coin.SoAnnotation()  # drawn over everything, or an inner element would not be seen
@@ -71,6 +73,17 @@ class Overlay:
             away = size / (2.0 * np.tan(camera.heightAngle.getValue() / 2.0))
         camera.position.setValue(*(np.asarray(centre) - away * np.array(direction)))
         camera.focalDistance = away
+
+
+def view_of(document):
+    """The document's 3D view: the active one, or the first when a spreadsheet or a drawing is active."""
+    window = FreeCADGui.getDocument(document.Name)
+    views = [window.ActiveView, *window.mdiViewsOfType("Gui::View3DInventor")]
+    found = next((view for view in views if hasattr(view, "getSceneGraph")), None)
+    if found is None:
+        text = tr("%s has no 3D view to draw into; open one in the menu View") % document.Label
+        raise MeshError("view", "no_view", text)
+    return found
 
 
 def coordinates(points):

@@ -1,5 +1,5 @@
-"""Refinements of our mesh object from a selection: FreeCAD's own for faces, edges and vertices, and a size
-region round a selected place.
+"""Refinements and groups of our mesh object from a selection: FreeCAD's own for faces, edges and vertices,
+and a size region round a selected place.
 """
 
 import FreeCADGui
@@ -15,14 +15,12 @@ SHARE_OF_SIZE = 3.0  # a refinement starts with the mesh's size divided by this
 
 def refine(selection):
     """Make a refinement of the selected elements (of one part with a mesh object); its panel opens."""
-    if panel_is_open():
-        return
-    chosen, mesh = selected_elements(selection)
-    if mesh is None:
-        return
-    # The last feature of a body has the body's elements under the same names.
-    part, meshed = chosen.Object, mesh.Shape
-    create(mesh, meshed if getattr(meshed, "Tip", None) == part else part, chosen.SubElementNames)
+    create(selection, tr("Mesh refinement"), new_refinement)
+
+
+def group(selection):
+    """Make a mesh group of the selected elements, likewise."""
+    create(selection, tr("Mesh group"), new_group)
 
 
 def refine_here(selection):
@@ -80,18 +78,36 @@ def meshes_of(part):
     return [item for item in part.Document.Objects if is_our_mesh(item) and item.Shape == part]
 
 
-def create(mesh, part, names):
-    """The refinement object, undoable; returns it."""
-    import ObjectsFem
-
-    document = mesh.Document
-    with undo_step(document, tr("Mesh refinement")):
-        refinement = ObjectsFem.makeMeshRegion(document, mesh, starting_size(mesh, part))
-        refinement.References = [(part, list(names))]
+def create(selection, title, new):
+    """Let new(mesh object, part) refer to the selected elements, as one step to undo; its panel opens."""
+    if panel_is_open():
+        return
+    chosen, mesh = selected_elements(selection)
+    if mesh is None:
+        return
+    # The last feature of a body has the body's elements under the same names.
+    part, document = chosen.Object, mesh.Document
+    part = mesh.Shape if getattr(mesh.Shape, "Tip", None) == part else part
+    with undo_step(document, title):
+        made = new(mesh, part)
+        made.References = [(part, list(chosen.SubElementNames))]
     document.recompute()
     FreeCADGui.Selection.clearSelection()
-    FreeCADGui.getDocument(document.Name).setEdit(refinement.Name)
-    return refinement
+    FreeCADGui.getDocument(document.Name).setEdit(made.Name)
+
+
+def new_refinement(mesh, part):
+    """FreeCAD's mesh refinement."""
+    import ObjectsFem
+
+    return ObjectsFem.makeMeshRegion(mesh.Document, mesh, starting_size(mesh, part))
+
+
+def new_group(mesh, part):
+    """FreeCAD's mesh group."""
+    import ObjectsFem
+
+    return ObjectsFem.makeMeshGroup(mesh.Document, mesh)
 
 
 def starting_size(mesh, part):

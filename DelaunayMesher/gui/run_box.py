@@ -30,7 +30,10 @@ class RunBox(QtGui.QWidget):
         self.solve_button.setObjectName("SolveButton")
         self.solve_button.setMinimumHeight(30)
         self.solve_button.setToolTip(
-            tr("Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh yet")
+            tr(
+                "Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh of "
+                "the part and options as they are now"
+            )
         )
         self.bar = QtGui.QProgressBar()
         self.bar.setRange(0, 1000)

@@ -11,6 +11,7 @@ from ..document import preview as computation
 from ..document.estimate import two_digits
 from ..errors import MeshError
 from .colours import size_scale
+from .explain import explain
 from .guards import mesh_errors
 from .mesh_job import remember
 from .overlay import Overlay
@@ -37,11 +38,10 @@ class PreviewJob:
 
     def run(self):
         try:
-            self.result = computation.preview(self.task.shape, self.task.options, self.task.keep)
+            with mesh_errors("sizing"):
+                self.result = computation.preview(self.task.shape, self.task.options, self.task.keep)
         except MeshError as error:
-            self.error = str(error)
-        except Exception as error:
-            self.error = "%s: %s" % (type(error).__name__, error)
+            self.error = error
 
     @property
     def finished(self):
@@ -69,7 +69,7 @@ class SizePreview:
         try:
             self.job = PreviewJob(self.target)
         except MeshError as error:
-            self.fail(str(error))
+            self.fail(error)
             return
         self.box.count.setText(tr("Computing the sizes ..."))
         self.timer.start()
@@ -80,14 +80,17 @@ class SizePreview:
             return
         self.timer.stop()
         self.job = None
-        if job.error:
-            self.fail(job.error)
-        else:
-            self.show(job.result)
+        try:
+            if job.error:
+                raise job.error
+            with mesh_errors("view"):
+                self.show(job.result)
+        except MeshError as error:
+            self.fail(error)
 
-    def fail(self, text):
+    def fail(self, error):
         self.box.preview_button.setChecked(False)
-        self.box.count.setText(text)
+        self.box.count.setText(explain(error))
 
     def show(self, preview):
         """The sizes as colours, on a logarithmic scale, instead of part and mesh."""

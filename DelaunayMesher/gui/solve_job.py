@@ -5,14 +5,13 @@ process.
 """
 
 import time
-from contextlib import contextmanager
 
 import FreeCAD
-from PySide import QtCore, QtGui
+from PySide import QtCore
 
 from ..document.calculix import Calculation
 from ..errors import MeshCancelled
-from .guards import mesh_errors, undo_step
+from .guards import patience, undo_step
 from .texts import tr
 
 STRESS_FIELDS = ("von Mises Stress", "von Mises stress")
@@ -28,7 +27,7 @@ class SolveJob:
         self.where = (target.Document.Name, target.Name)
         self.cancelled = False
         self.begin, self.end = time.monotonic(), None
-        with patience(), undo_step(target.Document, tr("CalculiX")):  # a missing solver is made
+        with patience("solve"), undo_step(target.Document, tr("CalculiX")):  # a missing solver is made
             self.calculation = Calculation(target)
 
     def start(self):
@@ -64,22 +63,11 @@ class SolveJob:
 
         Returns the result object; raises MeshError when there is none.
         """
-        with patience(), undo_step(target.Document, tr("Results of CalculiX")):
+        with patience("solve"), undo_step(target.Document, tr("Results of CalculiX")):
             result = self.calculation.load()
             self.shown = show_stress(result, self.calculation.analysis)
             hide(target, target.Shape)
         return result
-
-
-@contextmanager
-def patience():
-    """The cursor tells to wait; errors of FreeCAD's tools become a MeshError."""
-    QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
-    try:
-        with mesh_errors("solve"):
-            yield
-    finally:
-        QtGui.QApplication.restoreOverrideCursor()
 
 
 def hide(*items):

@@ -12,8 +12,11 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from ..document.from_femmesh import FaceTable, cad_face_of, cad_faces, tetrahedra
+from ..errors import MeshError
 from ..report import write_report
 from .commands import is_our_mesh
+from .explain import explain
+from .guards import patience
 from .histogram import Histogram
 from .measures import MEASURES
 from .overlay import Overlay
@@ -38,11 +41,12 @@ def open_panel(target):
 
     if panel_is_open():
         return
-    QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
     try:
-        panel = QualityPanel(target)
-    finally:
-        QtGui.QApplication.restoreOverrideCursor()
+        with patience("quality"):
+            panel = QualityPanel(target)
+    except MeshError as error:
+        show_error(explain(error))
+        return
     FreeCADGui.Control.showDialog(panel)
 
 
@@ -52,7 +56,6 @@ class QualityPanel:
     current = None  # the one that is open
 
     def __init__(self, target):
-        QualityPanel.current = self
         self.target = target
         self.mesh = tetrahedra(target.FemMesh)
         self.report = report_of(target)
@@ -64,6 +67,7 @@ class QualityPanel:
         self.part = getattr(target, "Shape", None)
         self.build()
         self.show_measure()
+        QualityPanel.current = self
 
     def build(self):
         self.plot_box, self.worst_box, self.cut_box = PlotBox(), WorstBox(), CutBox()

@@ -28,6 +28,14 @@
       <translation>Kleinere Elemente in einer Kugel, einem Quader oder einem Zylinder um die gewählte Ecke oder die angeklickte Stelle des Teils</translation>
     </message>
     <message>
+      <source>Mesh group</source>
+      <translation>Netzgruppe</translation>
+    </message>
+    <message>
+      <source>A named group of the mesh at the selected faces, edges or vertices of a part that has a mesh object</source>
+      <translation>Eine benannte Gruppe des Netzes an den gewählten Flächen, Kanten oder Ecken eines Teils, das ein Netzobjekt hat</translation>
+    </message>
+    <message>
       <source>Mesh quality</source>
       <translation>Netzqualität</translation>
     </message>
@@ -56,12 +64,24 @@
       <translation>Berechnen</translation>
     </message>
     <message>
-      <source>Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh yet</source>
-      <translation>Die Analyse mit CalculiX berechnen und die Spannungen zeigen; vernetzt zuerst, wenn es noch kein Netz gibt</translation>
+      <source>Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh of the part and options as they are now</source>
+      <translation>Die Analyse mit CalculiX berechnen und die Spannungen zeigen; vernetzt zuerst, wenn es kein Netz des Teils und der Optionen gibt, wie sie jetzt sind</translation>
     </message>
     <message>
       <source>%s is a mesh of triangles, not a solid. Make one of it first: in the workbench Part, menu Part, 'Create shape from mesh', then 'Convert to solid'.</source>
       <translation>%s ist ein Netz aus Dreiecken, kein Volumenkörper. Zuerst einen daraus machen: im Arbeitsbereich Part, Menü Formteil, „Form aus Netz erstellen“, dann „In Festkörper umwandeln“.</translation>
+    </message>
+    <message>
+      <source>Options</source>
+      <translation>Optionen</translation>
+    </message>
+    <message>
+      <source>FreeCAD</source>
+      <translation>FreeCAD</translation>
+    </message>
+    <message>
+      <source>Compiled part</source>
+      <translation>Kompilierter Teil</translation>
     </message>
     <message>
       <source>Reading</source>
@@ -112,12 +132,20 @@
       <translation>Qualitätswerte</translation>
     </message>
     <message>
-      <source>CalculiX</source>
-      <translation>CalculiX</translation>
+      <source>Triangulation</source>
+      <translation>Triangulierung</translation>
     </message>
     <message>
-      <source>Options</source>
-      <translation>Optionen</translation>
+      <source>Check of the mesh</source>
+      <translation>Prüfung des Netzes</translation>
+    </message>
+    <message>
+      <source>3D view</source>
+      <translation>3D-Ansicht</translation>
+    </message>
+    <message>
+      <source>CalculiX</source>
+      <translation>CalculiX</translation>
     </message>
     <message>
       <source>%.4g to %.4g: %d elements</source>
@@ -136,12 +164,16 @@
       <translation>Unter Debian in einem Terminal ausführen, danach FreeCAD neu starten:</translation>
     </message>
     <message>
-      <source>Elsewhere, install the wheel for this Python and this system into a folder beside the workbench:</source>
-      <translation>Sonst das Wheel für dieses Python und dieses System in einen Ordner neben dem Arbeitsbereich installieren:</translation>
+      <source>Elsewhere, with a Python of this version and a C++ compiler:</source>
+      <translation>Sonst mit einem Python dieser Version und einem C++-Compiler:</translation>
     </message>
     <message>
       <source>This FreeCAD uses Python %s on %s %s; the part has to be made for it.</source>
       <translation>Dieses FreeCAD benutzt Python %s unter %s %s; der Teil muss dafür gebaut sein.</translation>
+    </message>
+    <message>
+      <source>or without a compiler, with a wheel for this system instead of the last name: %s</source>
+      <translation>oder ohne Compiler, mit einem Wheel für dieses System statt des letzten Namens: %s</translation>
     </message>
     <message>
       <source>Details: %s</source>
@@ -208,6 +240,10 @@
       <translation>automatisch</translation>
     </message>
     <message>
+      <source>%s has no 3D view to draw into; open one in the menu View</source>
+      <translation>%s hat keine 3D-Ansicht, in die gezeichnet werden könnte; im Menü Ansicht eine öffnen</translation>
+    </message>
+    <message>
       <source>General</source>
       <translation>Allgemein</translation>
     </message>
@@ -240,12 +276,12 @@
       <translation>Gewähltes Element</translation>
     </message>
     <message>
-      <source>Size region</source>
-      <translation>Größenbereich</translation>
-    </message>
-    <message>
       <source>Mesh refinement</source>
       <translation>Netzverfeinerung</translation>
+    </message>
+    <message>
+      <source>Size region</source>
+      <translation>Größenbereich</translation>
     </message>
     <message>
       <source>This part has no mesh object yet. Use 'Mesh this solid' first.</source>
@@ -360,16 +396,16 @@
       <translation>Ergebnisse von CalculiX</translation>
     </message>
     <message>
-      <source>Delaunay mesh</source>
-      <translation>Delaunay-Netz</translation>
-    </message>
-    <message>
       <source>Another task panel is open. Close it first.</source>
       <translation>Ein anderes Aufgabenfenster ist offen. Schließen Sie es zuerst.</translation>
     </message>
     <message>
       <source>Delaunay Mesher</source>
       <translation>Delaunay Mesher</translation>
+    </message>
+    <message>
+      <source>Delaunay mesh</source>
+      <translation>Delaunay-Netz</translation>
     </message>
     <message>
       <source>Preview sizes</source>
@@ -576,8 +612,8 @@
       <translation>Min. Größe</translation>
     </message>
     <message>
-      <source>Smallest edge length that curvature, walls and acute angles get; automatic: 1/1000 of Max size</source>
-      <translation>Kleinste Kantenlänge für Krümmung, Wände und spitze Winkel; automatisch: 1/1000 der max. Größe</translation>
+      <source>Smallest edge length that curvature and walls get; automatic: 1/100 of Max size, 1/50 at walls</source>
+      <translation>Kleinste Kantenlänge für Krümmung und Wände; automatisch: 1/100 der max. Größe, 1/50 an Wänden</translation>
     </message>
     <message>
       <source>Growth rate</source>

@@ -69,10 +69,10 @@ def test_the_process_ends_when_nothing_can_be_taken_apart():
 def test_errors_come_back(tmp_path):
     (tmp_path / "bad.step").write_text("what is this")
     Part.makePlane(1, 1).exportBrep(str(tmp_path / "plane.brep"))
-    for name, kind in (("bad.step", InputError), ("plane.brep", MeshError)):
+    for name, kind, stage in (("bad.step", InputError, "read"), ("plane.brep", MeshError, "plc")):
         with CadProcess(str(tmp_path / name)) as source, pytest.raises(kind) as caught:
             pipeline.run(source, MeshOptions())
-        assert caught.value.stage == "plc"
+        assert caught.value.stage == stage
 
 
 def test_a_crash_is_an_unreadable_file():

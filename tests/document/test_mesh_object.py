@@ -4,12 +4,17 @@ recomputing; FreeCAD's own refinements and groups work on it.
 
 import json
 
+import Fem
 import FreeCAD
 import numpy as np
 import ObjectsFem
 import pytest
 
 from DelaunayMesher import document
+from DelaunayMesher.document import femmesh
+from DelaunayMesher.document.fcstd import save
+from DelaunayMesher.document.mesh_object import is_current, stored_report
+from DelaunayMesher.document.size_region import regions_of
 from DelaunayMesher.errors import InputError, MeshCancelled, MeshError
 from DelaunayMesher.options import OPTIONS
 from DelaunayMesher.quality import edge_lengths
@@ -229,7 +234,8 @@ def test_a_seam_that_a_constraint_refers_to_has_nodes(file):
 
 def test_write_fcstd(box, tmp_path):
     shape = box.Shape.copy()
-    options = document.make_options(max_size=4.0, order=2, sizes={"Face2": 2.0})
+    ball = Region.ball((4, 5, 5), 2.0, 1.5)
+    options = document.make_options(max_size=4.0, order=2, sizes={"Face2": 2.0}, regions=[ball])
     mesh = document.mesh_shape(shape, options)
     path = tmp_path / "out.FCStd"
     document.write_fcstd(str(path), mesh, shape, mesh.options, mesh.aliases)
@@ -239,11 +245,23 @@ def test_write_fcstd(box, tmp_path):
         target = next(item for item in again.Objects if item.isDerivedFrom("Fem::FemMeshObject"))
         assert target.FemMesh.VolumeCount == len(mesh.tets)
         assert target.Shape.Shape.Volume == pytest.approx(2000)
-        assert target.Sizes == ["Face2=2"]
+        assert target.Sizes == ["Face2=2"] and regions_of(target) == [ball]
+        assert len(document.run(target).tets) == len(mesh.tets)
     finally:
         FreeCAD.closeDocument(again.Name)
     with pytest.raises(InputError, match="No such"):
         document.write_fcstd(str(tmp_path / "none" / "out.FCStd"), mesh, shape)
+
+
+def test_freecads_own_words_when_it_cannot_save(tmp_path):
+    class Full:
+        def saveAs(self, path):
+            raise OSError("no space left")
+
+    with pytest.raises(InputError, match="no space left") as caught:
+        save(Full(), str(tmp_path / "out.FCStd"))
+    assert (caught.value.stage, caught.value.code) == ("write", "unwritable")
+    assert not list(tmp_path.iterdir())
 
 
 def inner_edge(mesh, centre, radius):
@@ -280,3 +298,43 @@ def test_size_regions_of_all_kinds(box):
         document.run(target)
     region.Radius = 1.0
     assert len(document.run(target).tets) > 2 * before
+
+
+def test_an_error_of_freecad_keeps_the_old_mesh(box, monkeypatch):
+    target = document.add_mesh(box, max_size=4.0)
+    document.run(target)
+    before, summary, report = counts(target), target.Summary, target.Report
+
+    def put_half(target, filling):
+        target.FemMesh = filling.elements
+        yield
+        raise RuntimeError("no groups today")
+
+    monkeypatch.setattr(femmesh, "put", put_half)
+    target.MaxSize = 2.0
+    with pytest.raises(RuntimeError, match="no groups today"):
+        document.run(target)
+    assert (counts(target), target.Summary, target.Report) == (before, summary, report)
+    assert target.FemMesh.GroupCount == 6 + 12 + 1
+
+
+def test_a_mesh_is_current_until_part_or_options_change(file, box):
+    target = document.add_mesh(box, max_size=4.0)
+    assert not is_current(target)
+    document.run(target)
+    target.Threads, target.MaxElements = 1, 10**6
+    assert is_current(target)
+    for item, name, value, old in (
+        (target, "Growth", 0.3, 0.35),
+        (target, "ElementOrder", "2nd", "1st"),
+        (target, "Sizes", ["Face1=1"], []),
+        (box, "Length", 20.01, 20),
+    ):
+        setattr(item, name, value)
+        file.recompute()
+        assert not is_current(target), name
+        setattr(item, name, old)
+        file.recompute()
+        assert is_current(target), name
+    target.FemMesh = Fem.FemMesh()
+    assert not is_current(target) and stored_report(target) == {}

@@ -153,6 +153,39 @@ def undo_a_run(target):
     panel.options_box.fields["max_size"].write(1.0)
 
 
+def undo_after_a_script(target):
+    """A script's run between two of the panel: undo brings its mesh and its figures back."""
+    document = target.Document
+    panel = drive.panel()
+    before = figures(target)
+    run_with(panel, 2.5)
+    target.MaxSize = 3.0
+    run_script(target)
+    script = figures(target)
+    run_with(panel, 2.0)
+    say("script:", script[:3], "panel after it:", figures(target)[:3])
+    assert len({before, script, figures(target)}) == 3
+    document.undo()
+    assert figures(target) == script
+    while figures(target) != before:
+        assert document.UndoCount
+        document.undo()
+    target.MaxSize = 1.0
+    panel.options_box.fields["max_size"].write(1.0)
+
+
+def run_with(panel, size):
+    panel.options_box.fields["max_size"].write(size)
+    drive.run(panel)
+
+
+def run_script(target):
+    """As somebody does in FreeCAD's Python console."""
+    from DelaunayMesher import document
+
+    document.run(target)
+
+
 def figures(target):
     """What tells one mesh from another, and the report of the run that made it."""
     mesh = target.FemMesh
@@ -179,6 +212,22 @@ def reopen(document):
     return document, target
 
 
+def digits_are_kept(target):
+    """The panel shows few digits, and takes none from what a script has written."""
+    assert drive.panel().reject()
+    wait(0.2)
+    target.Growth = 0.125
+    assert target.ViewObject.Proxy.doubleClicked(target.ViewObject)
+    wait(0.2)
+    panel = drive.panel()
+    assert panel.target == target and panel.options_box.fields["growth"].value() == 0.125
+    assert panel.reject()
+    wait(0.2)
+    assert target.Growth == 0.125
+    assert target.ViewObject.Proxy.doubleClicked(target.ViewObject)
+    wait(0.2)
+
+
 def close_while_running(document, target):
     """Closing the document stops the run."""
     panel = drive.panel()
@@ -200,10 +249,13 @@ def main():
     drive.view_all()
     drive.picture("panel")
     undo_a_run(target)
+    undo_after_a_script(target)
     cancel_in_the_middle(target)
     errors_are_shown(target)
     document = close_and_undo(target)
-    close_while_running(*reopen(document))
+    document, target = reopen(document)
+    digits_are_kept(target)
+    close_while_running(document, target)
 
 
 drive.start(main, "PANEL")

@@ -54,6 +54,33 @@ def refine(part, target):
     assert target.FemMesh.VolumeCount > 1.5 * before
 
 
+def group(part, target):
+    """The command makes FreeCAD's own group, which undo takes back; the next mesh has it."""
+    assert drive.panel().reject()
+    wait(0.3)
+    part.ViewObject.show()
+    drive.select(part, "Face1", "Face3")
+    FreeCADGui.runCommand("DelaunayMesher_Group")
+    wait(0.5)
+    made = target.MeshGroupList[0]
+    assert FreeCADGui.ActiveDocument.getInEdit().Object == made
+    assert made.References == [(part, ("Face1", "Face3"))]
+    FreeCADGui.ActiveDocument.resetEdit()
+    wait(0.3)
+    assert made in target.ViewObject.Proxy.claimChildren()
+    name = made.Name
+    target.Document.undo()
+    assert target.MeshGroupList == [] and target.Document.getObject(name) is None
+    target.Document.redo()
+    assert target.ViewObject.Proxy.doubleClicked(target.ViewObject)
+    wait(0.3)
+    run_panel()
+    mesh = target.FemMesh
+    found = {mesh.getGroupName(number): len(mesh.getGroupElements(number)) for number in mesh.Groups}
+    say("groups:", found)
+    assert found[name] == found["Face1"] + found["Face3"] > 0
+
+
 def quality_panel(target):
     """From the mesh panel's button; the figures agree with the report."""
     from DelaunayMesher.document.mesh_object import stored_report
@@ -121,6 +148,7 @@ def main():
     drive.activate()
     part, target = make_mesh()
     refine(part, target)
+    group(part, target)
     quality_panel(target)
 
 

@@ -79,9 +79,9 @@ def refinement_without_a_mesh():
     document = FreeCAD.newDocument("NoMesh")
     box = document.addObject("Part::Box", "Box")
     document.recompute()
-    for command in ("DelaunayMesher_RefineFaces", "DelaunayMesher_RefineHere"):
+    for command in ("RefineFaces", "RefineHere", "Group"):
         drive.select(box, "Face1")
-        text = drive.message_of(lambda name=command: FreeCADGui.runCommand(name))
+        text = drive.message_of(lambda name=command: FreeCADGui.runCommand("DelaunayMesher_" + name))
         assert "Mesh this solid" in text
 
 

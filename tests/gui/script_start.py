@@ -46,6 +46,7 @@ def missing_extension():
     extension.load = loaded
     say(text)
     assert "setup.sh" in text and "pip install" in text and "no _core" in text
+    assert os.path.join(drive.ROOT, "compiled") in text or "Mod/DelaunayMesher/compiled" in text
     assert document.Objects == [box]
 
 
