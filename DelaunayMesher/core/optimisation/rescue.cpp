@@ -10,12 +10,12 @@ constexpr int kSteps = 3;       // of a follow-up
 constexpr int kPasses = 3;      // of smoothing and flips
 constexpr double kBad = 0.5;    // elements worse than this are worked on
 constexpr double kHope = 1;     // progress of a pass relative to the one before, if all goes well
-constexpr Index kEarned = 12;   // tries, by each that helped
+constexpr Index kEarned = 4;    // tries, by each that helped
 struct Effort {
   double angle;        // degrees: elements below it are worth it
   Index tries, share;  // so many are tried, and one more for so many tetrahedra
 };
-constexpr Effort kEfforts[] = {{30, 5000, 8}, {30, 1500, 60}, {28, 1500, 60}};
+constexpr Effort kEfforts[] = {{30, 3000, 16}, {30, 1500, 80}, {28, 1500, 80}};
 
 }  // namespace
 

@@ -16,6 +16,9 @@ constexpr double kLongest = 1.45;     // edge made by a collapse, over the wante
 // edges that a tessellation has round the pole of a sphere stay.
 constexpr double kLongestFlat = 2.0;
 constexpr double kFlat = 0.95;
+// An edge so short, over the wanted length, goes whatever the length of the others: OCC puts points of a face
+// within the tolerance of its edges.
+constexpr double kNothing = 0.01;
 
 }  // namespace
 
@@ -138,7 +141,7 @@ void PatchRemesher::collapse_short(double ratio) {
         }
       });
       if (e < 0 || !patch_.can_collapse(e, v)) continue;
-      if (collapse_quality(e, v, kLongest, kAligned) < 0 &&
+      if (collapse_quality(e, v, shortest < kNothing ? HUGE_VAL : kLongest, kAligned) < 0 &&
           (!smooth || collapse_quality(e, v, kLongestFlat, kFlat) < 0))
         continue;
       const Index keep = patch_.target(e);
