@@ -141,6 +141,34 @@ TEST_CASE("sizes far coarser than the shape neither fold nor lose faces") {
   }
 }
 
+TEST_CASE("points of a face within the tolerance of its outline do not stay") {
+  constexpr int n = 24;
+  for (const double wanted : {0.3, 0.6, 1.2, 3.0}) {
+    CAPTURE(wanted);
+    Shape s = shapes::turned(10, 10, 30, 0, n);
+    std::vector<Index> rim(n), beside(n);
+    for (int i = 0; i < n; ++i) {
+      rim[i] = s.point(shapes::circle(10, 0, n)[i]);
+      beside[i] = s.point(s.plc.points[rim[i]] + Vec3{0, 0, (i % 3 - 1.5) * 1e-6});
+    }
+    for (std::size_t t = 0; t < s.plc.triangles.size(); ++t)
+      if (s.plc.triangle_face[t] == 0)
+        for (Index& p : s.plc.triangles[t])
+          if (const auto at = std::find(rim.begin(), rim.end(), p); at != rim.end())
+            p = beside[at - rim.begin()];
+    for (int i = 0; i < n; ++i)
+      s.quad(0, s.plc.points[rim[i]], s.plc.points[rim[(i + 1) % n]], s.plc.points[beside[(i + 1) % n]],
+             s.plc.points[beside[i]]);
+    const SurfaceMesh mesh = Run(s, Run::size_options(wanted)).mesh;
+    int short_edges = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      short_edges +=
+          std::min({distance(mesh.points[a], mesh.points[b]), distance(mesh.points[b], mesh.points[c]),
+                    distance(mesh.points[c], mesh.points[a])}) < 1e-4;
+    CHECK(short_edges == 0);
+  }
+}
+
 TEST_CASE("cancelling stops the stage") {
   const Shape shape = shapes::box(30, 20, 10);
   const Geometry geometry(shape.plc, shape.records);
