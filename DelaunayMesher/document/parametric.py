@@ -131,9 +131,7 @@ def outline(face, lines):
     for wire in face.Wires:
         first = len(nodes)
         pieces = []
-        for edge in wire.childShapes():  # unlike wire.Edges it has a seam twice, if the wire does
-            if edge.Orientation in INTERIOR:
-                continue  # it bounds nothing
+        for edge in edges_round(wire):
             own = next(number for number, other in enumerate(edges) if other.isSame(edge))
             pieces.append(edge_piece(face, edge, lines[own]))
         for line, run in end_to_end(pieces):
@@ -142,6 +140,20 @@ def outline(face, lines):
         if pieces:
             loops.append(list(range(first, len(nodes))))
     return nodes, np.array(places), loops
+
+
+def edges_round(wire):
+    """The edges of a wire as they run round the face: a seam twice, if the wire has it twice; without those
+    that bound nothing.
+
+    Raises MeshError when OCC does not find its way along the wire.
+    """
+    # wire.Edges has each edge once, and so has childShapes() from FreeCAD 1.0 on.
+    ordered = [edge for edge in wire.OrderedEdges if edge.Orientation not in INTERIOR]
+    bounding = [edge for edge in wire.Edges if edge.Orientation not in INTERIOR]
+    if not all(any(edge.isSame(other) for other in ordered) for edge in bounding):
+        raise MeshError("plc", "bad_facet", "the outline of a face is not one closed line")
+    return ordered
 
 
 def edge_piece(face, edge, line):
