@@ -115,7 +115,8 @@ class ShortSpinBox(QtGui.QDoubleSpinBox):
         self.setDecimals(DECIMALS)
 
     def textFromValue(self, value):
-        return self.locale().toString(float(value), "g", DECIMALS)
+        # Not by QLocale.toString(), which PySide calls in single precision.
+        return ("%.*g" % (DECIMALS, value)).replace(".", self.locale().decimalPoint())
 
 
 class SpinField(Field):

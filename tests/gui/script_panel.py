@@ -213,17 +213,19 @@ def reopen(document):
 
 
 def digits_are_kept(target):
-    """The panel shows few digits, and takes none from what a script has written."""
+    """The panel shows all digits that a script has written and no more, and takes none away."""
+    assert drive.panel().options_box.fields["growth"].widget.text() == "0.35"
     assert drive.panel().reject()
     wait(0.2)
-    target.Growth = 0.125
+    target.Growth = 0.12345678
     assert target.ViewObject.Proxy.doubleClicked(target.ViewObject)
     wait(0.2)
     panel = drive.panel()
-    assert panel.target == target and panel.options_box.fields["growth"].value() == 0.125
+    field = panel.options_box.fields["growth"]
+    assert panel.target == target and field.value() == 0.12345678 and field.widget.text() == "0.12345678"
     assert panel.reject()
     wait(0.2)
-    assert target.Growth == 0.125
+    assert target.Growth == 0.12345678
     assert target.ViewObject.Proxy.doubleClicked(target.ViewObject)
     wait(0.2)
 
