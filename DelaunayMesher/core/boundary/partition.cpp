@@ -49,9 +49,9 @@ class Partition {
         if (std::find(list.begin(), list.end(), complex_.face(t)) == list.end())
           list.push_back(complex_.face(t));
         solids_of_[complex_.face(t)] = complex_.solids(t);
-        for (const auto& [face, solids] : solids_of_) meeting_.insert(std::minmax(solids[0], solids[1]));
       }
     }
+    for (const auto& [face, solids] : solids_of_) meeting_.insert(std::minmax(solids[0], solids[1]));
   }
 
   void measure_windings() {
