@@ -1,6 +1,7 @@
 // PatchRemesher: insertion of points until every triangle is small enough.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/random.h"
 #include "surfaces/remesh_patch.h"
@@ -19,8 +20,8 @@ constexpr double kOnEdge = 0.02;   // height over the edge's length under which 
 constexpr double kSameSide = 0.5;  // cosine between normals that may be walked over
 constexpr int kBucketsPerOctave = 4;
 constexpr int kBuckets = 80;
-constexpr double kFewestSteps = 1000;
-constexpr double kStepsPerSquare = 2;  // of the shortest length wanted, in that of a side of a triangle
+constexpr std::size_t kFewestTests = 10000;  // of edges for a flip
+constexpr double kTestsPerPoint = 40;        // of those wanted; faces of 400 CAD files need 8 to 19
 
 struct Circle {
   Vec3 centre;
@@ -52,12 +53,13 @@ void PatchRemesher::refine(double radius_ratio_limit) {
   top_bucket_ = -1;
   for (Index t = 0; t < patch_.triangle_slots(); ++t)
     if (patch_.alive(t)) enqueue(t);
-  std::size_t steps = 0;
-  // Far more steps than a sound patch needs; a folded or flat one would be divided for ever.
-  double squares = 0, shortest = *std::min_element(patch_.lengths.begin(), patch_.lengths.end());
-  for (Index e = 0; e < 3 * patch_.triangle_slots(); ++e)
-    if (patch_.alive(e / 3)) squares += norm2(points()[patch_.target(e)] - points()[patch_.origin(e)]);
-  while (top_bucket_ >= 0 && steps < kFewestSteps + kStepsPerSquare * squares / (shortest * shortest)) {
+  std::size_t steps = 0, next_check = kFewestTests;
+  flip_tests_ = 0;
+  while (top_bucket_ >= 0) {
+    if (flip_tests_ > next_check) {  // a folded or flat patch would be divided and flipped for ever
+      if (flip_tests_ > kFewestTests + kTestsPerPoint * wanted_points()) break;
+      next_check = 2 * flip_tests_;
+    }
     std::vector<Entry>& bucket = buckets_[top_bucket_];
     if (bucket.empty()) {
       --top_bucket_;
@@ -67,9 +69,20 @@ void PatchRemesher::refine(double radius_ratio_limit) {
     bucket.pop_back();
     if (!patch_.alive(entry.triangle) || patch_.stamp(entry.triangle) != entry.stamp) continue;
     if (!insert_near_centre(entry.triangle)) split_longest(entry.triangle);
-    shortest = std::min(shortest, patch_.lengths.back());
     if ((++steps & 255) == 0) poll_();
   }
+}
+
+// How many points the patch has when its triangles are equilateral and as large as wanted.
+double PatchRemesher::wanted_points() const {
+  double squares = 0;
+  for (Index t = 0; t < patch_.triangle_slots(); ++t) {
+    if (!patch_.alive(t)) continue;
+    const Index* v = &patch_.vertex[3 * t];
+    const double length = (patch_.lengths[v[0]] + patch_.lengths[v[1]] + patch_.lengths[v[2]]) / 3;
+    squares += norm(area_vector(points()[v[0]], points()[v[1]], points()[v[2]])) / (length * length);
+  }
+  return squares / std::numbers::sqrt3;
 }
 
 // Triangle into which p projects, walking from t; -1 when the boundary or a fold of the surface is in the

@@ -280,6 +280,7 @@ void PatchRemesher::lawson() {
   std::size_t budget = 1000 + 30 * stack_.size();
   while (!stack_.empty() && budget > 0) {
     --budget;
+    ++flip_tests_;
     const Index e = stack_.back();
     stack_.pop_back();
     if (!patch_.alive(e / 3) || patch_.twin[e] < 0) continue;

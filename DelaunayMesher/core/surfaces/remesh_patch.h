@@ -92,6 +92,7 @@ class PatchRemesher {
 
   void enqueue(Index t);
   bool insert_near_centre(Index t);
+  double wanted_points() const;
   bool split_longest(Index t);
   Index locate(Index t, const Vec3& p) const;
   bool may_insert(Index s, const Vec3& p, double length, double radius) const;
@@ -109,7 +110,8 @@ class PatchRemesher {
   const std::uint64_t seed_;
   const PatchPoll poll_;
   const bool planar_;
-  std::vector<Index> stack_;  // half-edges for lawson()
+  std::vector<Index> stack_;    // half-edges for lawson()
+  std::size_t flip_tests_ = 0;  // edges that lawson() looked at
   struct Entry {
     Index triangle, stamp;
   };

@@ -141,24 +141,32 @@ TEST_CASE("sizes far coarser than the shape neither fold nor lose faces") {
   }
 }
 
-TEST_CASE("points of a face within the tolerance of its outline do not stay") {
+// A turned body whose first face is bounded by a rim that another row of its points follows, `height(i)`
+// above.
+template <class Height>
+Shape rim_with_points_beside(Height height) {
   constexpr int n = 24;
+  Shape s = shapes::turned(10, 10, 30, 0, n);
+  std::vector<Index> rim(n), beside(n);
+  for (int i = 0; i < n; ++i) {
+    rim[i] = s.point(shapes::circle(10, 0, n)[i]);
+    beside[i] = s.point(s.plc.points[rim[i]] + Vec3{0, 0, height(i)});
+  }
+  for (std::size_t t = 0; t < s.plc.triangles.size(); ++t)
+    if (s.plc.triangle_face[t] == 0)
+      for (Index& p : s.plc.triangles[t])
+        if (const auto at = std::find(rim.begin(), rim.end(), p); at != rim.end())
+          p = beside[at - rim.begin()];
+  for (int i = 0; i < n; ++i)
+    s.quad(0, s.plc.points[rim[i]], s.plc.points[rim[(i + 1) % n]], s.plc.points[beside[(i + 1) % n]],
+           s.plc.points[beside[i]]);
+  return s;
+}
+
+TEST_CASE("points of a face within the tolerance of its outline do not stay") {
   for (const double wanted : {0.3, 0.6, 1.2, 3.0}) {
     CAPTURE(wanted);
-    Shape s = shapes::turned(10, 10, 30, 0, n);
-    std::vector<Index> rim(n), beside(n);
-    for (int i = 0; i < n; ++i) {
-      rim[i] = s.point(shapes::circle(10, 0, n)[i]);
-      beside[i] = s.point(s.plc.points[rim[i]] + Vec3{0, 0, (i % 3 - 1.5) * 1e-6});
-    }
-    for (std::size_t t = 0; t < s.plc.triangles.size(); ++t)
-      if (s.plc.triangle_face[t] == 0)
-        for (Index& p : s.plc.triangles[t])
-          if (const auto at = std::find(rim.begin(), rim.end(), p); at != rim.end())
-            p = beside[at - rim.begin()];
-    for (int i = 0; i < n; ++i)
-      s.quad(0, s.plc.points[rim[i]], s.plc.points[rim[(i + 1) % n]], s.plc.points[beside[(i + 1) % n]],
-             s.plc.points[beside[i]]);
+    const Shape s = rim_with_points_beside([](int i) { return (i % 3 - 1.5) * 1e-6; });
     const SurfaceMesh mesh = Run(s, Run::size_options(wanted)).mesh;
     int short_edges = 0;
     for (const auto& [a, b, c] : mesh.triangles)
@@ -167,6 +175,13 @@ TEST_CASE("points of a face within the tolerance of its outline do not stay") {
                     distance(mesh.points[c], mesh.points[a])}) < 1e-4;
     CHECK(short_edges == 0);
   }
+}
+
+TEST_CASE("a face that is folded back at its outline is not divided for ever") {
+  const Shape s = rim_with_points_beside([](int) { return -1e-6; });
+  const std::size_t sound =
+      Run(rim_with_points_beside([](int) { return 1e-6; }), Run::size_options(0.6)).mesh.points.size();
+  CHECK(Run(s, Run::size_options(0.6)).mesh.points.size() < 2 * sound);
 }
 
 TEST_CASE("cancelling stops the stage") {
