@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/keep_rows.h"
+
 namespace dm {
 namespace {
 
@@ -335,22 +337,9 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
 
 // Leaves out the triangles and segments that were removed.
 void EditMesh::close_boundary() {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k) {
-    if (mesh_.triangles[k][0] < 0) continue;
-    mesh_.triangles[count] = mesh_.triangles[k];
-    mesh_.triangle_face[count++] = mesh_.triangle_face[k];
-  }
-  mesh_.triangles.resize(count);
-  mesh_.triangle_face.resize(count);
-  count = 0;
-  for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
-    if (mesh_.segments[k][0] < 0) continue;
-    mesh_.segments[count] = mesh_.segments[k];
-    mesh_.segment_edge[count++] = mesh_.segment_edge[k];
-  }
-  mesh_.segments.resize(count);
-  mesh_.segment_edge.resize(count);
+  const auto is_there = [](const auto& corners) { return corners[0] >= 0; };
+  keep_rows(mesh_.triangles, mesh_.triangle_face, is_there);
+  keep_rows(mesh_.segments, mesh_.segment_edge, is_there);
 }
 
 void EditMesh::finish() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/keep_rows.h"
 #include "refinement/angle_test.h"
 
 namespace dm {
@@ -80,25 +81,14 @@ void drop_bare_boundary(VolumeMesh& mesh) {
     for (const Triangle& face : {Triangle{b, c, d}, {a, c, d}, {a, b, d}, {a, b, c}})
       faces.push_back(sorted(face));
   std::sort(faces.begin(), faces.end());
-  std::size_t kept = 0;
+  keep_rows(mesh.triangles, mesh.triangle_face,
+            [&](const Triangle& t) { return std::binary_search(faces.begin(), faces.end(), sorted(t)); });
   std::set<Segment> edges;
-  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    const auto [a, b, c] = sorted(mesh.triangles[k]);
-    if (!std::binary_search(faces.begin(), faces.end(), Triangle{a, b, c})) continue;
+  for (const Triangle& t : mesh.triangles) {
+    const auto [a, b, c] = sorted(t);
     edges.insert({Segment{a, b}, {b, c}, {a, c}});
-    mesh.triangles[kept] = mesh.triangles[k];
-    mesh.triangle_face[kept++] = mesh.triangle_face[k];
   }
-  mesh.triangles.resize(kept);
-  mesh.triangle_face.resize(kept);
-  kept = 0;
-  for (std::size_t k = 0; k < mesh.segments.size(); ++k) {
-    if (!edges.contains(sorted(mesh.segments[k]))) continue;
-    mesh.segments[kept] = mesh.segments[k];
-    mesh.segment_edge[kept++] = mesh.segment_edge[k];
-  }
-  mesh.segments.resize(kept);
-  mesh.segment_edge.resize(kept);
+  keep_rows(mesh.segments, mesh.segment_edge, [&](const Segment& s) { return edges.contains(sorted(s)); });
 }
 
 }  // namespace
@@ -117,16 +107,9 @@ std::vector<Vec3> leave_out_flat_tets(VolumeMesh& mesh) {
     if (std::min({uses[a], uses[b], uses[c], uses[d]}) < 2) continue;
     for (const Index p : {a, b, c, d}) --uses[p];
     places.push_back(0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]));
-    mesh.tet_solid[t] = 0;
+    mesh.tets[t] = {-1, -1, -1, -1};
   }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (mesh.tet_solid[t] == 0) continue;
-    mesh.tets[kept] = mesh.tets[t];
-    mesh.tet_solid[kept++] = mesh.tet_solid[t];
-  }
-  mesh.tets.resize(kept);
-  mesh.tet_solid.resize(kept);
+  keep_rows(mesh.tets, mesh.tet_solid, [](const Tet& v) { return v[0] >= 0; });
   mesh.neighbours.clear();
   if (!places.empty()) drop_bare_boundary(mesh);
   return places;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/keep_rows.h"
+
 namespace dm {
 
 PlcEditor::PlcEditor(Plc& plc) : plc_(plc), table_(plc), edges_of_(plc.points.size()) {
@@ -143,8 +145,7 @@ bool PlcEditor::collapse(Index p, Index q) {
   for (const Index t : gone) {
     for (const Index x : plc_.triangles[t]) std::erase(round_[x], t);
     std::erase(by_face_[plc_.triangle_face[t]], t);
-    plc_.triangles[t] = {q, q, q};
-    removed_.push_back(t);
+    plc_.triangles[t] = {q, q, q};  // finish() leaves it out
   }
   for (std::size_t k = 0; k < kept.size(); ++k) {
     replace(kept[k], moved[k]);
@@ -154,15 +155,7 @@ bool PlcEditor::collapse(Index p, Index q) {
 }
 
 void PlcEditor::finish() {
-  std::sort(removed_.begin(), removed_.end());
-  std::size_t to = 0;
-  for (std::size_t t = 0; t < plc_.triangles.size(); ++t) {
-    if (std::binary_search(removed_.begin(), removed_.end(), static_cast<Index>(t))) continue;
-    plc_.triangles[to] = plc_.triangles[t];
-    plc_.triangle_face[to++] = plc_.triangle_face[t];
-  }
-  plc_.triangles.resize(to);
-  plc_.triangle_face.resize(to);
+  keep_rows(plc_.triangles, plc_.triangle_face, [](const Triangle& t) { return t[0] != t[1]; });
 }
 
 }  // namespace dm

@@ -69,7 +69,6 @@ class PlcEditor {
   std::vector<char> edited_;  // by face
   std::map<Segment, Index> half_;
   std::set<Index> divided_by_others_;
-  std::vector<Index> removed_;  // triangles
 };
 
 }  // namespace dm

@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "base/keep_rows.h"
+
 namespace dm {
 namespace {
 
@@ -59,16 +61,6 @@ void renumber(SurfaceMesh& mesh, const std::vector<Index>& to) {
     for (Index& v : s) v = number[to[v]];
 }
 
-// Keeps the rows that are wanted of a list and of what belongs to it.
-template <class Row, class Wanted>
-void keep(std::vector<Row>& rows, std::vector<Index>& owner, Wanted wanted) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (wanted(rows[i])) rows[kept] = rows[i], owner[kept++] = owner[i];
-  rows.resize(kept);
-  owner.resize(kept);
-}
-
 }  // namespace
 
 std::vector<Index> first_at_place(const SurfaceMesh& mesh) {
@@ -101,11 +93,11 @@ void join_repeated_points(SurfaceMesh& mesh) {
     if (joins_edges(star))
       for (const auto& [v, others] : star.neighbours) to[v] = v;
   renumber(mesh, to);
-  keep(mesh.triangles, mesh.triangle_face,
-       [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; });
+  keep_rows(mesh.triangles, mesh.triangle_face,
+            [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; });
   std::set<std::pair<Index, Index>> known;
-  keep(mesh.segments, mesh.segment_edge,
-       [&](const Segment& s) { return s[0] != s[1] && known.insert(std::minmax(s[0], s[1])).second; });
+  keep_rows(mesh.segments, mesh.segment_edge,
+            [&](const Segment& s) { return s[0] != s[1] && known.insert(std::minmax(s[0], s[1])).second; });
 }
 
 }  // namespace dm
