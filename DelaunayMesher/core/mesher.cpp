@@ -105,7 +105,7 @@ void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport
     result.warnings.push_back(
         std::to_string(recovery.replaced) +
         " boundary triangles could not be recovered and were replaced by others between the "
-        "same nodes: faces touch or cross each other there (" +
+        "same nodes: faces touch, cross or meet at narrow angles there (" +
         names(recovery.unrecovered_faces) + ")");
   if (refinement.constrained)
     result.warnings.push_back("in " + std::to_string(refinement.constrained) +
