@@ -4,6 +4,7 @@ It links to the meshed part (`Shape`), and FreeCAD's own mesh refinements and me
 Recomputing the document never meshes.  A run that fails or is cancelled leaves the object as it was.
 """
 
+import hashlib
 import json
 import time
 from dataclasses import asdict, dataclass
@@ -11,6 +12,7 @@ from typing import Any, List, Tuple
 
 import Fem  # noqa: F401  registers the document types; without it the better type below is not known
 import FreeCAD
+import numpy as np
 
 from ..errors import InputError
 from ..options import MeshOptions
@@ -181,7 +183,7 @@ def collect(target, **extra):
     if part is None:
         raise InputError("options", "no_part", "%s is not linked to a part" % target.Label)
     shape = shape_to_mesh(part)
-    if shape is None:
+    if shape is None or not shape.Vertexes:
         raise InputError("options", "no_shape", "%s has no visible shape to mesh" % part.Label)
     sizes = read_sizes(target.Sizes)
     refined, warnings = references.refinement_sizes(target, part, shape)
@@ -197,18 +199,31 @@ def collect(target, **extra):
 
 
 def fingerprint(shape, options):
-    """Text that differs when the mesh of a shape with these options does."""
-    box = shape.BoundBox
-    figures = (shape.Volume, shape.Area, box.XMin, box.YMin, box.ZMin, box.XMax, box.YMax, box.ZMax)
-    size = max(box.DiagonalLength, 1e-300)
-    shares = [figures[0] / size**3, figures[1] / size**2, *(figure / size for figure in figures[2:]), size]
+    """Text that differs when the mesh of a shape with these options does.
+
+    By places that its geometry has wherever it is stored or drawn: the volume takes OCC seconds, and the
+    bounding box of a shape changes once it was drawn.
+    """
+    places = np.array([tuple(place) for place in places_of(shape)])
+    size = max(np.linalg.norm(np.ptp(places, axis=0)), 1e-300)
+    shares = np.round(places / size, 6) + 0.0  # no negative zeros
     chosen = {name: value for name, value in asdict(options).items() if name not in WITHOUT_EFFECT}
-    return "%d %d %s %s" % (
-        len(shape.Faces),
-        len(shape.Edges),
-        " ".join("%.7g" % share for share in shares),
-        chosen,
-    )
+    return "%.7g %s %s" % (size, hashlib.md5(shares.tobytes()).hexdigest(), chosen)
+
+
+def places_of(shape):
+    """The vertices of a shape, the middles of its edges and faces, the poles of its splines, in order."""
+    for vertex in shape.Vertexes:
+        yield vertex.Point
+    for edge in shape.Edges:
+        if not edge.Degenerated:
+            yield edge.valueAt(sum(edge.ParameterRange) / 2)
+            yield from getattr(edge.Curve, "getPoles", list)()
+    for face in shape.Faces:
+        u0, u1, v0, v1 = face.ParameterRange
+        yield face.valueAt((u0 + u1) / 2, (v0 + v1) / 2)
+        for row in getattr(face.Surface, "getPoles", list)():
+            yield from row
 
 
 def is_current(target):

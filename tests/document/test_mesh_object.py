@@ -8,15 +8,16 @@ import Fem
 import FreeCAD
 import numpy as np
 import ObjectsFem
+import Part
 import pytest
 
 from DelaunayMesher import document
 from DelaunayMesher.document import femmesh
 from DelaunayMesher.document.fcstd import save
-from DelaunayMesher.document.mesh_object import is_current, stored_report
+from DelaunayMesher.document.mesh_object import fingerprint, is_current, stored_report
 from DelaunayMesher.document.size_region import regions_of
 from DelaunayMesher.errors import InputError, MeshCancelled, MeshError
-from DelaunayMesher.options import OPTIONS
+from DelaunayMesher.options import OPTIONS, MeshOptions
 from DelaunayMesher.quality import edge_lengths
 from DelaunayMesher.sizing import Region
 
@@ -338,3 +339,36 @@ def test_a_mesh_is_current_until_part_or_options_change(file, box):
         assert is_current(target), name
     target.FemMesh = Fem.FemMesh()
     assert not is_current(target) and stored_report(target) == {}
+
+
+def test_drawing_or_storing_a_part_leaves_its_mesh_current(file):
+    part = file.addObject("Part::Torus", "Ring")
+    file.recompute()
+    target = document.add_mesh(part, max_size=4.0)
+    document.run(target)
+    part.Shape.tessellate(2.0)  # what a window does; it changes the bounding box
+    assert is_current(target)
+    stored = Part.Shape()
+    stored.importBrepFromString(part.Shape.exportBrepToString())
+    assert fingerprint(stored, MeshOptions()) == fingerprint(part.Shape, MeshOptions())
+
+
+def test_one_pole_of_a_spline_makes_another_part():
+    def prism(bulge):
+        places = [(0, 0, 0), (1, 0, 0), (2, bulge, 0), *((x, 3, 0) for x in range(3, 20)), (20, 0, 0)]
+        places = [FreeCAD.Vector(place) for place in places]
+        curve = Part.BSplineCurve()
+        curve.buildFromPoles(places)
+        outline = Part.Wire([curve.toShape(), Part.makeLine(places[-1], places[0])])
+        return Part.Face(outline).extrude(FreeCAD.Vector(0, 0, 1))
+
+    prints = {fingerprint(prism(bulge), MeshOptions()) for bulge in (1, 1.01, 1.1)}
+    assert len(prints) == 3
+
+
+def test_an_empty_shape_is_said(file):
+    part = file.addObject("Part::Feature", "Nothing")
+    for shape in (Part.Shape(), Part.Compound([])):
+        part.Shape = shape
+        with pytest.raises(InputError, match="Nothing has no visible shape"):
+            document.run(document.add_mesh(part))
