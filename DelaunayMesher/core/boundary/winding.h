@@ -11,8 +11,8 @@
 
 #include <vector>
 
+#include "base/box_tree.h"
 #include "base/vec3.h"
-#include "sizing/box_tree.h"
 
 namespace dm {
 

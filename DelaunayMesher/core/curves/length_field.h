@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "sizing/box_tree.h"
+#include "base/box_tree.h"
 #include "sizing/size_field.h"
 
 namespace dm {

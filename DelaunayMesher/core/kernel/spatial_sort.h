@@ -1,7 +1,7 @@
 // Insertion order of a point set: random rounds of growing size, each along a Hilbert curve.
 //
-// Idea: biased randomised insertion order (Amenta, Choi, Rote 2003) on a Hilbert curve (tables after
-// Hamilton 2006).  The rounds keep the expected cost of the worst point set, the curve keeps
+// Idea: biased randomised insertion order (Amenta, Choi, Rote 2003) on a Hilbert curve
+// (base/hilbert_curve.h).  The rounds keep the expected cost of the worst point set, the curve keeps
 // consecutive points near each other.
 // Postcondition: a permutation that depends on the points alone.  Cost: linear (radix sort).
 #pragma once
@@ -21,9 +21,5 @@ struct InsertionOrder {
 };
 
 InsertionOrder insertion_order(std::span<const Vec3> points);
-
-// Position on a Hilbert curve of 2^kHilbertBits cells per side; x, y, z are the cell's numbers.
-inline constexpr int kHilbertBits = 10;
-std::uint32_t hilbert_code(std::uint32_t x, std::uint32_t y, std::uint32_t z);
 
 }  // namespace dm

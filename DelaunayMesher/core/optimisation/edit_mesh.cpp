@@ -1,6 +1,7 @@
 #include "optimisation/edit_mesh.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/keep_rows.h"
 
@@ -254,32 +255,51 @@ void EditMesh::expose(Index tet) {
   note_change({&tet, 1});
 }
 
-std::span<const Index> EditMesh::replace(std::span<const Index> before, std::span<const Tet> after,
-                                         std::span<const Index> solids, std::span<const Triangle> boundary) {
-  struct OpenFace {
-    Triangle key;
-    Index link;  // outside: the neighbour; inside: 4 * tet + face of a new tetrahedron
+// Faces that wait for a tetrahedron on their other side while a set of tetrahedra is replaced.
+class EditMesh::OpenFaces {
+ public:
+  struct Open {
+    Triangle key;  // sorted corners
+    Index link;    // 4 * tet + face: of the neighbour outside the set, or of a new tetrahedron
     bool marked, outside;
   };
-  std::array<OpenFace, 4 * kMaxReplace> open;
-  int count = 0;
+
+  void add(const Open& face) { faces_[count_++] = face; }
+  // The face with these corners, which no longer waits.
+  std::optional<Open> take(const Triangle& key) {
+    for (int k = 0; k < count_; ++k) {
+      if (faces_[k].key != key) continue;
+      const Open found = faces_[k];
+      faces_[k] = faces_[--count_];
+      return found;
+    }
+    return {};
+  }
+  const Open* begin() const { return faces_.data(); }
+  const Open* end() const { return faces_.data() + count_; }
+
+ private:
+  std::array<Open, 4 * kMaxReplace> faces_;
+  int count_ = 0;
+};
+
+void EditMesh::open_faces(std::span<const Index> tets, OpenFaces& open) {
   ++stamp_value_;
-  for (Index t : before) stamp_[t] = stamp_value_;
-  for (Index t : before)
+  for (const Index t : tets) stamp_[t] = stamp_value_;
+  for (const Index t : tets)
     for (int i = 0; i < 4; ++i) {
       const Index n = mesh_.neighbours[t][i];
       if (n >= 0 && stamp_[n / 4] == stamp_value_) continue;
-      open[count++] = {sorted(face_corners(mesh_.tets[t], i)), n, marked(t, i), true};
+      open.add({sorted(face_corners(mesh_.tets[t], i)), n, marked(t, i), true});
     }
-  stars_listed_ = false;
-  const Index solid = mesh_.tet_solid[before[0]];
-  const auto on_boundary = [&](const Triangle& key) {
-    return std::any_of(boundary.begin(), boundary.end(), [&](const Triangle& t) { return sorted(t) == key; });
-  };
+}
+
+// A point that gets no new tetrahedron afterwards has left the mesh.
+void EditMesh::remove_tets(std::span<const Index> tets) {
   if (in_trial_)
-    for (Index t : before) note_tet(t);
-  for (Index t : before) {  // a point that gets no new tetrahedron below has left the mesh
-    for (Index v : mesh_.tets[t])
+    for (const Index t : tets) note_tet(t);
+  for (const Index t : tets) {
+    for (const Index v : mesh_.tets[t])
       if (vertex_tet_[v] == t) {
         if (in_trial_) note(kVertexTet, v, t);
         vertex_tet_[v] = -1;
@@ -287,55 +307,65 @@ std::span<const Index> EditMesh::replace(std::span<const Index> before, std::spa
     mesh_.tets[t][0] = kRemoved;
   }
   // Its own slots first: neighbours stay close in memory.
-  for (auto it = before.rbegin(); it != before.rend(); ++it) {
+  for (auto it = tets.rbegin(); it != tets.rend(); ++it) {
     if (in_trial_) note(kFreed, *it);
     free_.push_back(*it);
   }
+}
+
+// Makes face i of the new tetrahedron t the neighbour of a face that waited for it.
+void EditMesh::join(Index t, int i, Index link, bool marked, bool outside) {
+  mesh_.neighbours[t][i] = link;
+  if (link >= 0) {
+    Index& back = mesh_.neighbours[link / 4][link % 4];
+    if (in_trial_) note(kLink, link, back);
+    back = 4 * t + i;
+  }
+  if (!marked) return;
+  marks_[t] |= static_cast<std::uint8_t>(1 << i);
+  if (!outside) mark_face(link);
+}
+
+std::span<const Index> EditMesh::replace(std::span<const Index> before, std::span<const Tet> after,
+                                         std::span<const Index> solids, std::span<const Triangle> boundary) {
+  const Index solid = mesh_.tet_solid[before[0]];
+  const auto on_boundary = [&](const Triangle& key) {
+    return std::any_of(boundary.begin(), boundary.end(), [&](const Triangle& t) { return sorted(t) == key; });
+  };
+  stars_listed_ = false;
+  OpenFaces open;
+  open_faces(before, open);
+  remove_tets(before);
   created_.clear();
   for (std::size_t k = 0; k < after.size(); ++k) {
-    const Tet& corners = after[k];
     const Index t = take_slot();
     created_.push_back(t);
-    mesh_.tets[t] = corners;
+    mesh_.tets[t] = after[k];
     mesh_.tet_solid[t] = solids.empty() ? solid : solids[k];
-    bad_[t] = compute_bad(corners);
+    bad_[t] = compute_bad(after[k]);
     marks_[t] = 0;
     for (int i = 0; i < 4; ++i) {
-      const Triangle key = sorted(face_corners(corners, i));
-      const auto end = open.begin() + count;
-      const auto match = std::find_if(open.begin(), end, [&](const OpenFace& f) { return f.key == key; });
-      if (match == end) {
-        open[count++] = {key, 4 * t + i, on_boundary(key), false};
-        continue;
-      }
-      mesh_.neighbours[t][i] = match->link;
-      if (match->link >= 0) {
-        Index& link = mesh_.neighbours[match->link / 4][match->link % 4];
-        if (in_trial_) note(kLink, match->link, link);
-        link = 4 * t + i;
-      }
-      if (match->marked) {
-        marks_[t] |= static_cast<std::uint8_t>(1 << i);
-        if (!match->outside) mark_face(match->link);
-      }
-      *match = open[--count];
+      const Triangle key = sorted(face_corners(after[k], i));
+      if (const auto across = open.take(key))
+        join(t, i, across->link, across->marked, across->outside);
+      else
+        open.add({key, 4 * t + i, on_boundary(key), false});
     }
-    for (Index v : corners) {
+    for (const Index v : after[k]) {
       if (in_trial_) note(kVertexTet, v, vertex_tet_[v]);
       vertex_tet_[v] = t;
     }
   }
-  for (int k = 0; k < count; ++k) {  // new faces of the boundary
-    if (open[k].link < 0) continue;
-    if (open[k].outside) expose(open[k].link / 4);
-    mark_face(open[k].link);
-    mesh_.neighbours[open[k].link / 4][open[k].link % 4] = -1;
+  for (const auto& face : open) {  // new faces of the boundary
+    if (face.link < 0) continue;
+    if (face.outside) expose(face.link / 4);
+    mark_face(face.link);
+    mesh_.neighbours[face.link / 4][face.link % 4] = -1;
   }
   note_change(created_);
   return created_;
 }
 
-// Leaves out the triangles and segments that were removed.
 void EditMesh::close_boundary() {
   const auto is_there = [](const auto& corners) { return corners[0] >= 0; };
   keep_rows(mesh_.triangles, mesh_.triangle_face, is_there);

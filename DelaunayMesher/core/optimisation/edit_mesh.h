@@ -152,6 +152,10 @@ class EditMesh {
   void build_point_faces();
   void mark_boundary();
   void list_boundary();
+  class OpenFaces;
+  void open_faces(std::span<const Index> tets, OpenFaces& open);
+  void remove_tets(std::span<const Index> tets);
+  void join(Index t, int i, Index link, bool marked, bool outside);
   Index take_slot();
   void mark_face(Index link);
   void expose(Index tet);

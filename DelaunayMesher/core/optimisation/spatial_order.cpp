@@ -2,34 +2,18 @@
 
 #include <algorithm>
 
+#include "base/hilbert_curve.h"
+
 namespace dm {
 namespace {
 
-constexpr int kBits = 10;  // per coordinate
-
-// 0b11 -> 0b1001: two empty bits after each bit.
-std::uint64_t spread(std::uint64_t x) {
-  std::uint64_t y = 0;
-  for (int b = 0; b < kBits; ++b) y |= (x >> b & 1) << (3 * b);
-  return y;
-}
-
 // New number of each point.
 std::vector<Index> point_places(const std::vector<Vec3>& points) {
-  Vec3 low = points[0], high = low;
-  for (const Vec3& p : points)
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  const double scale = extent > 0 ? ((1 << kBits) - 1) / extent : 0;
+  const auto curve =
+      HilbertCurve::through(points.size(), [&](std::size_t v) -> const Vec3& { return points[v]; });
   std::vector<std::uint64_t> keys(points.size());  // place on the curve, then the old number
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    const Vec3 q = scale * (points[v] - low);
-    const auto cell = [](double x) { return spread(static_cast<std::uint64_t>(x)); };
-    keys[v] = (cell(q.x) | cell(q.y) << 1 | cell(q.z) << 2) << 32 | v;
-  }
+  for (std::size_t v = 0; v < points.size(); ++v)
+    keys[v] = static_cast<std::uint64_t>(curve.code(points[v])) << 32 | v;
   std::sort(keys.begin(), keys.end());
   std::vector<Index> place(points.size());
   for (std::size_t k = 0; k < keys.size(); ++k) place[keys[k] & 0xffffffff] = static_cast<Index>(k);

@@ -1,16 +1,15 @@
 // Nearest of many triangles or line segments to a point.
 //
-// A bounding volume hierarchy split at the median of the longest axis (Kay, Kajiya 1986), searched nearer
-// child first.  Built in O(n log n); a query near the surface costs O(log n), some 0.2-0.5 microseconds.
-// Precondition: at least one item, finite coordinates.  Ties go to the item found first: deterministic.
+// A bounding volume hierarchy (Kay, Kajiya 1986; base/box_tree.h), searched nearer child first.  Built in O(n
+// log n); a query near the surface costs O(log n), some 0.2-0.5 microseconds. Precondition: at least one
+// item, finite coordinates.  Ties go to the item found first: deterministic.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <limits>
-#include <numeric>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/box_tree.h"
 
 namespace dm {
 
@@ -52,22 +51,12 @@ class TriangleItem {
 template <class Item>
 class NearestTree {
  public:
-  explicit NearestTree(std::vector<Item> items) : items_(std::move(items)), order_(items_.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    centres_.reserve(items_.size());
-    for (const Item& item : items_) {
-      Vec3 sum;
-      for (int i = 0; i < item.size(); ++i) sum += item.corner(i);
-      centres_.push_back(sum);
-    }
-    nodes_.reserve(2 * items_.size() / leaf_size + 2);
-    build(0, static_cast<Index>(items_.size()));
-    centres_ = {};
-  }
+  explicit NearestTree(std::vector<Item> items) : items_(std::move(items)), tree_(boxes_of(items_)) {}
 
   const Item& item(Index i) const { return items_[i]; }
 
   NearestPoint nearest(const Vec3& p) const {
+    const auto& nodes = tree_.nodes();
     NearestPoint best;
     struct Waiting {
       Index node;
@@ -79,17 +68,17 @@ class NearestTree {
     while (top > 0) {
       const Waiting waiting = stack[--top];
       if (waiting.distance2 >= best.distance2) continue;
-      const Node* node = &nodes_[waiting.node];
+      const BoxTree::Node* node = &nodes[waiting.node];
       while (node->count == 0) {
-        Index near = node->left, far = node->right;
-        double near_d = nodes_[near].box.distance2(p), far_d = nodes_[far].box.distance2(p);
+        Index near = node->first, far = near + 1;
+        double near_d = nodes[near].box.distance2(p), far_d = nodes[far].box.distance2(p);
         if (far_d < near_d) std::swap(near, far), std::swap(near_d, far_d);
         if (far_d < best.distance2) stack[top++] = {far, far_d};
         if (near_d >= best.distance2) break;
-        node = &nodes_[near];
+        node = &nodes[near];
       }
       for (Index i = 0; i < node->count; ++i) {
-        const Index item = order_[node->left + i];
+        const Index item = tree_.order()[node->first + i];
         const NearestPoint found = items_[item].nearest(p);
         if (found.distance2 < best.distance2) best = found, best.item = item;
       }
@@ -98,59 +87,15 @@ class NearestTree {
   }
 
  private:
-  static constexpr Index leaf_size = 4;
-
-  struct Box {
-    Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
-    static constexpr double inf = std::numeric_limits<double>::infinity();
-    void add(const Vec3& p) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    double distance2(const Vec3& p) const {
-      const double x = std::max(std::max(low.x - p.x, p.x - high.x), 0.0);
-      const double y = std::max(std::max(low.y - p.y, p.y - high.y), 0.0);
-      const double z = std::max(std::max(low.z - p.z, p.z - high.z), 0.0);
-      return x * x + y * y + z * z;
-    }
-  };
-  // A leaf (count > 0) holds order_[left, left + count); an inner node its two children.
-  struct Node {
-    Box box;
-    Index left = 0, right = 0, count = 0;
-  };
-
-  Index build(Index first, Index last) {
-    const Index index = static_cast<Index>(nodes_.size());
-    nodes_.emplace_back();
-    Box box, centres;
-    for (Index i = first; i < last; ++i) {
-      const Item& item = items_[order_[i]];
-      for (int k = 0; k < item.size(); ++k) box.add(item.corner(k));
-      centres.add(centres_[order_[i]]);
-    }
-    nodes_[index].box = box;
-    if (last - first <= leaf_size) {
-      nodes_[index].left = first, nodes_[index].count = last - first;
-      return index;
-    }
-    const Vec3 extent = centres.high - centres.low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    const Index middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](Index i, Index j) {
-                       const double a = centres_[i][axis], b = centres_[j][axis];
-                       return a != b ? a < b : i < j;
-                     });
-    const Index left = build(first, middle), right = build(middle, last);
-    nodes_[index].left = left, nodes_[index].right = right;
-    return index;
+  static std::vector<Box> boxes_of(const std::vector<Item>& items) {
+    std::vector<Box> boxes(items.size());
+    for (std::size_t k = 0; k < items.size(); ++k)
+      for (int i = 0; i < items[k].size(); ++i) boxes[k].add(items[k].corner(i));
+    return boxes;
   }
 
   std::vector<Item> items_;
-  std::vector<Index> order_;
-  std::vector<Vec3> centres_;  // of the items, while building
-  std::vector<Node> nodes_;
+  BoxTree tree_;
 };
 
 }  // namespace dm

@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 
+#include "base/hilbert_curve.h"
 #include "base/random.h"
 #include "refinement/angle_test.h"
 #include "refinement/boundary_flip.h"
@@ -145,25 +146,17 @@ class Refinement {
     flips_before_ = report_.flips;
   }
 
-  // Morton order of the centroids: neighbours in the list are neighbours in memory.
+  // By the centroids: neighbours in the list are neighbours in memory.
   void sort_along_curve(std::deque<Index>& list) const {
-    Vec3 low = tets_.point(0), high = low;
-    for (const Vec3& p : tets_.points())
-      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
-    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-    const auto key = [&](Index t) {
-      const Vec3 p = 0.25 * (tets_.point(tets_.corners(t)[0]) + tets_.point(tets_.corners(t)[1]) +
-                             tets_.point(tets_.corners(t)[2]) + tets_.point(tets_.corners(t)[3])) -
-                     low;
-      std::uint64_t k = 0;
-      for (int bit = 15; bit >= 0; --bit)
-        for (int i = 0; i < 3; ++i)
-          k = k << 1 | (static_cast<std::uint64_t>(p[i] / extent * 65535) >> bit & 1);
-      return k;
-    };
-    std::vector<std::pair<std::uint64_t, Index>> keyed;
+    const auto curve = HilbertCurve::through(tets_.vertex_count(),
+                                             [&](std::size_t v) -> const Vec3& { return tets_.point(v); });
+    std::vector<std::pair<std::uint32_t, Index>> keyed;
     keyed.reserve(list.size());
-    for (const Index t : list) keyed.emplace_back(key(t), t);
+    for (const Index t : list) {
+      const auto [a, b, c, d] = tets_.corners(t);
+      const Vec3 centre = 0.25 * (tets_.point(a) + tets_.point(b) + tets_.point(c) + tets_.point(d));
+      keyed.emplace_back(curve.code(centre), t);
+    }
     std::sort(keyed.begin(), keyed.end());
     for (std::size_t i = 0; i < list.size(); ++i) list[i] = keyed[i].second;
   }

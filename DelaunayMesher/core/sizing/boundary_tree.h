@@ -2,8 +2,8 @@
 // and gaps, and to know which part of space will be meshed.
 #pragma once
 
+#include "base/box_tree.h"
 #include "plc/plc.h"
-#include "sizing/box_tree.h"
 
 namespace dm {
 

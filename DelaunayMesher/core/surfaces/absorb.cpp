@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "sizing/box_tree.h"
+#include "base/box_tree.h"
 #include "surfaces/crossings.h"
 
 namespace dm {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sizing/box_tree.h"
+#include "base/box_tree.h"
 
 namespace dm {
 namespace {

@@ -1,4 +1,4 @@
-// A binary tree of boxes over items that have a bounding box, and the walks that sources and boundary share.
+// A binary tree of boxes over items that have a bounding box.
 //
 // Built by median splits along the longest axis of the items' centres: O(n log n), leaves of at most four
 // items, children of a node next to each other in memory.  The order of equal items is by index, so the tree

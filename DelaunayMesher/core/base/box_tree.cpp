@@ -1,4 +1,4 @@
-#include "sizing/box_tree.h"
+#include "base/box_tree.h"
 
 #include <numeric>
 
