@@ -121,20 +121,21 @@ bool Rescuer::insert(Index tet, int place, bool deep) {
   return attempt({kind, points[0], points[1], points[2]}, last, deep, change);
 }
 
-// The shortest edges, each to either end.
-bool Rescuer::contract(Index tet) {
+// Edges by their length, the shortest first, each to either end.
+bool Rescuer::contract(Index tet, int first, int last, bool deep) {
   const Tet c = mesh_.tet(tet);
   std::vector<std::pair<double, Segment>> edges;
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j)
       edges.push_back({distance(mesh_.point(c[i]), mesh_.point(c[j])), {c[i], c[j]}});
   std::sort(edges.begin(), edges.end());
-  for (int k = 0; k < kEdges; ++k)
+  for (int k = first; k < last; ++k)
     for (int end = 0; end < 2; ++end) {
       const Index from = edges[k].second[end], to = edges[k].second[1 - end];
-      const Index last = std::max(mesh_.last_change(from), mesh_.last_change(to));
+      const Index change_before = std::max(mesh_.last_change(from), mesh_.last_change(to));
       const auto change = [&] { return contractor_.contract(from, to) ? to : -1; };
-      if (attempt({kContraction, from, to, -1}, last, false, change)) return true;
+      const Index kind = deep ? kDeepContraction : kContraction;
+      if (attempt({kind, from, to, -1}, change_before, deep, change)) return true;
     }
   return false;
 }
@@ -151,10 +152,12 @@ bool Rescuer::rescue(Index tet, int effort) {
   for (effort_ = 0; effort_ <= std::min(effort, kMostEffort); ++effort_) {
     if (tries_left_[effort_] == 0) continue;
     if (mesh_.bad(tet) < badness_at(kEfforts[effort_].angle)) return false;
-    if (effort_ == 0 && (contract(tet) || insert(tet, 1, 3, false))) return true;
+    if (effort_ == 0 && (contract(tet, 0, kEdges, false) || insert(tet, 1, 3, false))) return true;
     if (effort_ == 1 && (insert(tet, 0, 1, false) || insert(tet, 3, 5, false) || insert(tet, 7, 11, false)))
       return true;
-    if (effort_ == 2 && (insert(tet, 5, 7, false) || insert(tet, 0, Inserter::kPlaces, true))) return true;
+    if (effort_ == 2 && (insert(tet, 5, 7, false) || contract(tet, kEdges, 6, false) ||
+                         contract(tet, 0, 6, true) || insert(tet, 0, Inserter::kPlaces, true)))
+      return true;
   }
   return false;
 }

@@ -34,14 +34,14 @@ class Rescuer {
  private:
   // What is changed: kind of change and the points it is made of (the element for one inside).
   using Site = std::array<Index, 4>;
-  enum Kind { kInsertion, kDeepInsertion, kContraction };
+  enum Kind { kInsertion, kDeepInsertion, kContraction, kDeepContraction };
 
   bool is_fixed(Index tet);
   template <class Change>
   bool attempt(const Site& site, Index last_change, bool deep, Change change);
   bool insert(Index tet, int place, bool deep);
   bool insert(Index tet, int first, int last, bool deep);
-  bool contract(Index tet);
+  bool contract(Index tet, int first, int last, bool deep);
   void settle(Index v);
   bool is_better() const;
   void follow_up();
