@@ -13,7 +13,8 @@ from .vtufile import write_vtu
 FREECAD_ENDING = ".fcstd"
 VTU_ENDING = ".vtu"
 # Formats that hold tetrahedra and triangles of both orders and read back the same.
-MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", ".bdf", ".nas", ".mesh")
+NASTRAN_ENDINGS = (".bdf", ".nas")
+MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", *NASTRAN_ENDINGS, ".mesh")
 
 
 def check_output(path):
@@ -98,8 +99,20 @@ def write_with_meshio(path, mesh):
         meshio.write(path, mesh)
     elif ending == ".xdmf":
         meshio.write(path, mesh, data_format="XML")  # one file, and no need of h5py
+    elif ending in NASTRAN_ENDINGS:
+        solids, faces = mesh.cell_data["solid"][0], mesh.cell_data["face"][1]
+        mesh.cell_data = {"nastran:ref": [solids, solids.max() + faces]}  # properties share their numbers
+        mesh.points = np.array([[_in_sixteen(x) for x in point] for point in mesh.points.tolist()])
+        meshio.write(path, mesh)
     else:
         meshio.write(path, mesh)
+
+
+def _in_sixteen(x):
+    """The number nearest to x that fits into the 16 characters of a Nastran field."""
+    if abs(x) < 1e-99:
+        return 0.0
+    return float("%.10e" % x) if 1e-9 <= abs(x) < 9e9 else float("%.9e" % x)
 
 
 def _tags(mesh):

@@ -73,6 +73,19 @@ def test_formats_read_back(tmp_path, ending, order):
         assert [list(map(int, part)) for part in back.cell_data["face"]] == [[0, 0], [1, 2, 3, 4, 5, 6]]
 
 
+@pytest.mark.parametrize("ending", meshfile.NASTRAN_ENDINGS)
+def test_any_coordinate_fits_into_a_nastran_file(tmp_path, ending):
+    """A field has 16 characters, and meshio stops at longer ones."""
+    mesh = two_tets(1)
+    mesh.points[:] = np.pi * np.array(
+        [[-1e-18, 1e-18, -1], [-1e-310, 1e5, -1e5], [1, 1, 1], [-1e-9, 1, 0], [1e11, -1e11, 1e-9]]
+    )
+    mesh.write(tmp_path / ("a" + ending))
+    back = meshio.read(tmp_path / ("a" + ending))
+    assert np.allclose(back.points, mesh.points, rtol=1e-9, atol=1e-99)
+    assert [list(part) for part in back.cell_data["nastran:ref"]] == [[1, 2], [3, 4, 5, 6, 7, 8]]
+
+
 def test_what_cannot_be_written(tmp_path):
     mesh = two_tets(1)
     for name in ("a.stl", "a.xyz", "a", "missing/a.vtu"):

@@ -173,6 +173,18 @@ def test_faces_with_a_strip_and_a_wide_part(flat, wide, angle):
     assert len(mesh.tets) < 9000
 
 
+def test_the_size_floor_is_blamed_where_it_is_at_work():
+    """A plate of 0.2 whose elements may not be smaller than 1 cannot have good ones; where nobody looked at its
+    thickness, a smaller size that is given somewhere is no floor.
+    """
+    plate = Part.makeBox(20, 20, 0.2)
+    mesh = DelaunayMesher.mesh(plate, max_size=4, min_size=1, optimise=False)
+    assert mesh.below_target and {item["reason"] for item in mesh.below_target} == {"size_floor"}
+    ball = [DelaunayMesher.Region.ball((10, 10, 0), 6, 1)]
+    mesh = DelaunayMesher.mesh(plate, max_size=4, elements_across=0, optimise=False, regions=ball)
+    assert mesh.below_target and {item["reason"] for item in mesh.below_target} == {"fallback"}
+
+
 def test_elements_at_a_notch_are_not_excused_by_its_angle():
     """The 30 degrees are outside of the solid, which has 330 there."""
     half = 6 * math.tan(math.radians(15))

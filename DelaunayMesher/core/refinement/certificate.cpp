@@ -111,7 +111,7 @@ BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const SharpIn
   }
   if (is_in_sharp_part(sharp, v))
     out.reason = "input_angle";
-  else if (size.smallest() < size.largest() && size.at(out.place) <= 1.001 * size.smallest())
+  else if (size.is_floor(size.at(out.place)))
     out.reason = "size_floor";
   return out;
 }

@@ -23,9 +23,9 @@ inline constexpr double kAcuteAngle = 45;
 
 // Reasons: "input_angle" - the element touches a CAD edge whose faces meet below kAcuteAngle in a solid (not
 // in a notch), or reaches from one of these faces to the other; or it touches a CAD vertex where a face has a
-// corner of less than half of that, or three faces that meet there.  "size_floor" - the wanted size there is
-// the smallest allowed.  Else "fallback". face_solids: as in Plc.  Cost: a look at every element; the input's
-// angles only when one is below.
+// corner of less than half of that, or three faces that meet there.  "size_floor" - the size there is
+// the smallest that walls, gaps and curvature may ask for.  Else "fallback". face_solids: as in Plc.  Cost: a
+// look at every element; the input's angles only when one is below.
 std::vector<BelowTarget> certify(const VolumeMesh& mesh, const std::vector<std::array<Index, 2>>& face_solids,
                                  const SizeField& size, double target_angle);
 

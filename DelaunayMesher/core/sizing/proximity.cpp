@@ -312,6 +312,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
   };
   for (const Patch& patch : prober.patches) result.wanted = std::min(result.wanted, patch.size);
   const double floor = least(limits.proximity, 1);
+  result.floor = floor;
   for (Patch& patch : prober.patches) {
     const double wanted = patch.size;
     patch.size = std::max(wanted, floor);
@@ -323,6 +324,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
   }
   // Curved faces in contact (a bolt in its hole) would ask for that everywhere.
   const double crossing = least(limits.crossing, 2);
+  result.crossing_floor = crossing;
   for (const Patch& patch : prober.patches) {
     const double size = std::max(patch.size, crossing);
     result.finest = std::min(result.finest, size);

@@ -26,8 +26,10 @@ struct ThinWall {
 };
 
 struct ProximityResult {
-  double finest = 0;         // mm, smallest size that walls and gaps get
-  double wanted = HUGE_VAL;  // mm, smallest size that their widths ask for; infinity = no wall or gap found
+  double finest = 0;          // mm, smallest size that walls and gaps get
+  double wanted = HUGE_VAL;   // mm, smallest size that their widths ask for; infinity = no wall or gap found
+  double floor = 0;           // mm, the least they may get
+  double crossing_floor = 0;  // ... where facets would cross a gap
   std::vector<ThinWall> walls;
 };
 

@@ -1,5 +1,7 @@
 #include "sizing/size_field.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <unordered_set>
@@ -18,6 +20,8 @@ namespace {
 // thinner than kThickWall * h has in addition for each h that it is thinner; fitted to finished meshes.
 constexpr double kPerVolume = 9.5, kPerArea = 1.2;
 constexpr double kPerWallArea = 5.5, kThickWall = 0.98, kMostPerWallArea = 3.9;
+
+constexpr double kGrown = 1.05;  // a size over the floor beside it, a little inside of a wall
 
 double domain_volume(const Plc& plc) {
   double sixfold = 0;
@@ -88,6 +92,7 @@ std::vector<SizeSource> clustered(const std::vector<SizeSource>& sources) {
 
 struct SizeField::Impl {
   double smallest = 0, largest = 0, growth = 0, predicted = 0;
+  std::array<double, 3> floors{};  // of curvature, walls and gaps, facets across gaps
   bool constant = true;
   std::vector<std::string> warnings;
   std::unique_ptr<Octree> octree;
@@ -108,6 +113,7 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
     boundary.emplace(plc);
     proximity = add_proximity(plc, geometry, *boundary, options, limits, triangle_size, context, sources);
   }
+  impl_->floors = {limits.curvature, proximity.floor, proximity.crossing_floor};
   if (proximity.wanted < 0.99 * proximity.finest) impl_->warnings.push_back(limited_walls(proximity));
   FieldSources field;
   field.max_size = options.max_size;
@@ -155,6 +161,11 @@ SizeField::~SizeField() = default;
 double SizeField::at(const Vec3& p) const { return impl_->constant ? impl_->largest : impl_->octree->at(p); }
 double SizeField::smallest() const { return impl_->smallest; }
 double SizeField::largest() const { return impl_->largest; }
+bool SizeField::is_floor(double size) const {
+  return std::any_of(impl_->floors.begin(), impl_->floors.end(), [&](double floor) {
+    return size < kGrown * floor && size > 0.999 * floor && floor < impl_->largest;
+  });
+}
 double SizeField::growth() const { return impl_->growth; }
 const std::vector<std::string>& SizeField::warnings() const { return impl_->warnings; }
 double SizeField::predicted_tetrahedra() const { return impl_->predicted; }

@@ -48,9 +48,10 @@ class SizeField {
   SizeField(const SizeField&) = delete;
   SizeField& operator=(const SizeField&) = delete;
 
-  double at(const Vec3& p) const;  // thread-safe
-  double smallest() const;         // minimum over the domain
-  double largest() const;          // maximum over the domain; == smallest() means a constant field
+  double at(const Vec3& p) const;    // thread-safe
+  double smallest() const;           // minimum over the domain
+  double largest() const;            // maximum over the domain
+  bool is_floor(double size) const;  // Is it as small as walls or curvature may make it?
   double growth() const;
   // Number of tetrahedra that the field asks for: integral of 1 / (volume of one element of edge length h),
   // and a term for the smaller elements along the boundary (docs/sizing.md).
