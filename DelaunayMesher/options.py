@@ -90,7 +90,7 @@ OPTIONS = (
     ),
     Option(
         "min_size", "length", None, 0, None,
-        "smallest edge length that curvature and walls get; automatic: 1/100 of Max size, 1/50 at walls",
+        "smallest edge length, given sizes included; automatic: 1/100 of Max size at curves, 1/50 at walls",
         "MinSize", "App::PropertyLength", "Size", "Min size", "mm", True, metavar="MM",
     ),
     Option(

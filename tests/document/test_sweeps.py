@@ -174,8 +174,8 @@ def test_faces_with_a_strip_and_a_wide_part(flat, wide, angle):
 
 
 def test_the_size_floor_is_blamed_where_it_is_at_work():
-    """A plate of 0.2 whose elements may not be smaller than 1 cannot have good ones; where nobody looked at its
-    thickness, a smaller size that is given somewhere is no floor.
+    """A plate of 0.2 whose elements may not be smaller than 1 cannot have good ones.  Where its thickness is
+    not looked at, a smaller size that is given somewhere is no floor.
     """
     plate = Part.makeBox(20, 20, 0.2)
     mesh = DelaunayMesher.mesh(plate, max_size=4, min_size=1, optimise=False)

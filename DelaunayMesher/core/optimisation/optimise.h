@@ -5,7 +5,8 @@
 // elements need the full set of operations (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007), the last
 // of which inserts and removes points, also on the boundary (rescue.h).
 // Precondition: check_volume_mesh(mesh).  Postcondition: the same; the smallest angle is no smaller and the
-// largest no larger than before, unless within 30..136 degrees; every boundary point lies on its CAD element;
+// largest no larger than before, unless within 30..136 degrees, or 26.5..140 where one of the two was worse
+// (keeps_angles in quality.h); every boundary point lies on its CAD element;
 // no interior triangle has its corners on one CAD face that did not have them before.
 // The mesh is renumbered (spatial_order.h).  Threads: rounds over the whole mesh use all of the context's,
 // the worst elements one; the result is the same for any number (sweep.h).  Cost: 1 to 1.5 us per

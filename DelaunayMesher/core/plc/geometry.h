@@ -1,6 +1,6 @@
 // Exact geometry of CAD faces and edges: every boundary node is put on it.
 //
-// Analytic surfaces in closed form; splines by Gauss-Newton from the nearest of a grid of samples.
+// Analytic surfaces in closed form; splines by Newton from the nearest triangle or chord of a grid.
 // Postcondition: the projected point lies within 1e-10 * (model diagonal) of the surface or curve, and within
 // 1e-9 mm on models of ordinary size (FreeCAD looks for nodes within 1e-7 mm).
 #pragma once

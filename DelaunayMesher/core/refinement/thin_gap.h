@@ -15,7 +15,7 @@ class ThinGaps {
   ThinGaps(const LabelledTriangulation& mesh, const Geometry& geometry);
 
   // Does the tetrahedron reach from one face of an acute edge or wall to the other where they are closer
-  // together than about half of `edge` (a third for walls), without an edge much longer than that?  Cost: a
+  // together than about half of `edge` (a quarter for walls), without an edge much longer than that?  Cost: a
   // look at its corners' faces, and at most four projections where they suit.
   bool holds(Index tet, double edge) const;
 

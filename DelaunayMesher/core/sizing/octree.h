@@ -7,7 +7,7 @@
 // corners, as in vector distance transforms (Danielsson, 1980).  Distances are exact for the source taken,
 // and the source taken is nearly always the best.  3. Cells in the domain that are still larger than their
 // size allows are split, their new corners choosing among the sources of the old ones.
-// Precondition: growth < 1.  Postcondition (checked by tests): within about 10 % of the exact field in the
+// Made for growth < 1.  Postcondition then (checked by tests): within about 10 % of the exact field in the
 // domain, 14 % at worst, beside edge and vertex sources and where the influences of two sources meet.
 // Outside, beside a face with a source, the field is continued linearly, so that it has no kink there.
 // Cost: about four microseconds per leaf and 0.1 to 0.5 leaf (32 bytes) per tetrahedron asked for; lookup 20

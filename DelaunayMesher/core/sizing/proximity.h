@@ -8,9 +8,9 @@
 // for which 2 is enough if the mesh will be optimised).  Measured limits for a 20 degree mesh before
 // optimisation are 2.1 t and 1.5 t, for free walls after it 2.5 t. Two faces that meet at an acute angle (a
 // wedge, a cusp at a tangent fillet) are no wall near their common edge: there t goes to zero and refinement
-// would never end. Cost: two short rays per place; places are h_local apart, closer where the width varies.
-// Known limit: a feature much smaller than the triangles on both of its sides and the local size can be
-// missed.
+// would never end. Cost: two short rays per place; places are one to two h_local apart, closer where the
+// width varies. Known limit: a feature much smaller than the triangles on both of its sides and the local
+// size can be missed.
 #pragma once
 
 #include "sizing/boundary_tree.h"

@@ -4,7 +4,7 @@
 // an edge left over by a Boolean operation can only be meshed with tiny or with flat elements all along.  The
 // points of a tiny edge become one; those that face each other across a narrow face, or a narrow part of one,
 // do, and with them the two curves along it: the face ends there, or is gone.  Faces beside it then end up to
-// the tolerance off their surface.
+// the tolerance off their surface, up to 2.5 tolerances where several such features lie side by side.
 //
 // Nothing is absorbed where that would do harm: where a triangle would turn over, coincide with or cross
 // another, or two faces come to meet at an acute angle (the rim of a thin plate, the floor of a slit), nor a

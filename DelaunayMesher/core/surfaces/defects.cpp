@@ -16,7 +16,6 @@ namespace dm {
 namespace {
 
 constexpr double kSmallAngle = 0.94;    // cosine of 20 degrees
-constexpr double kShortSegment = 0.5;   // over the wanted length
 constexpr double kStripLength = 1.5;    // wanted length over the strip's width
 constexpr double kFloor = 1.0 / 24;     // of the length the size field wants
 constexpr double kFoldFloor = 1.0 / 8;  // ... where faces meet at less than 20 degrees

@@ -21,10 +21,10 @@ struct Defect {
 // Cost: find_crossings.
 std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths);
 
-// Triangles with an angle under 20 degrees between curves closer together than the wanted length, or beside
-// a short CAD edge.  Not where the curves meet at such an angle in the tip of a wedge or needle of a solid
-// (its solid angle there is small), nor below a 24th of the length that the size field wants, an
-// eighth where faces meet at less than 20 degrees.
+// Triangles with an angle under 20 degrees between curves closer together than the wanted length, or opposite
+// a segment of a CAD edge.  Not where the curves meet at such an angle in the tip of a wedge or needle of a
+// solid (its solid angle there is small), nor below a 24th of the length that the size field wants, an eighth
+// where faces meet at less than 20 degrees.
 std::vector<Defect> find_narrow_places(const SurfaceMesh& mesh, const Plc& plc, const LengthField& lengths);
 
 }  // namespace dm
