@@ -1,4 +1,4 @@
-"""Write meshes: FreeCAD documents through document, .vtu by vtufile, every other format through meshio."""
+"""Write meshes: FreeCAD documents through document, .vtu and .inp by themselves, all else through meshio."""
 
 import os
 import tempfile
@@ -7,11 +7,13 @@ import numpy as np
 
 from .cadprocess import ending_of
 from .errors import InputError
+from .inpfile import write_inp
 from .surfacefile import import_meshio
 from .vtufile import write_vtu
 
 FREECAD_ENDING = ".fcstd"
 VTU_ENDING = ".vtu"
+OWN_WRITERS = {VTU_ENDING: write_vtu, ".inp": write_inp}
 # Formats that hold tetrahedra and triangles of both orders and read back the same.
 NASTRAN_ENDINGS = (".bdf", ".nas")
 MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", *NASTRAN_ENDINGS, ".mesh")
@@ -36,7 +38,7 @@ def check_output(path):
         raise _unwritable(
             "%s: cannot write %r files, only %s" % (path, ending_of(path), known), "unknown_format"
         )
-    if ending_of(path) != VTU_ENDING:
+    if ending_of(path) not in OWN_WRITERS:
         import_meshio()
 
 
@@ -72,8 +74,8 @@ def write_mesh(path, mesh):
     try:
         with tempfile.TemporaryDirectory(dir=folder, prefix=".mesh-") as workshop:
             target = os.path.join(workshop, os.path.basename(str(path)))
-            if ending == VTU_ENDING:
-                write_vtu(target, mesh)
+            if ending in OWN_WRITERS:
+                OWN_WRITERS[ending](target, mesh)
             else:
                 write_with_meshio(target, to_meshio(mesh))
             for name in os.listdir(workshop):  # some formats take several files
@@ -90,7 +92,7 @@ def write_with_meshio(path, mesh):
     ending = ending_of(path)
     if ending == ".msh":
         tags = _tags(mesh)
-        mesh.cell_data = {**mesh.cell_data, "gmsh:physical": tags, "gmsh:geometrical": tags}
+        mesh.cell_data = {"gmsh:physical": tags, "gmsh:geometrical": tags}  # meshio cannot read others back
         meshio.write(path, mesh, file_format="gmsh22")  # the variant that every reader knows
     elif ending == ".mesh":
         if mesh.cells[0].type == "tetra10":

@@ -1,3 +1,4 @@
+import dataclasses
 import os
 import tracemalloc
 
@@ -10,7 +11,8 @@ from DelaunayMesher.options import MeshOptions
 from DelaunayMesher.result import Mesh
 
 meshio = pytest.importorskip("meshio")
-WITH_DATA = (".vtu", ".vtk", ".msh", ".med", ".xdmf")
+WITH_DATA = (".vtu", ".vtk", ".med", ".xdmf")
+TETS_ONLY = (".inp",)
 
 
 def two_tets(order):
@@ -65,12 +67,46 @@ def test_formats_read_back(tmp_path, ending, order):
     back = meshio.read(path)
     assert np.allclose(back.points, mesh.points, atol=1e-6)
     kinds = ["tetra", "triangle"] if order == 1 else ["tetra10", "triangle6"]
-    assert [cells.type for cells in back.cells] == kinds
+    assert [cells.type for cells in back.cells] == (kinds[:1] if ending in TETS_ONLY else kinds)
     assert np.array_equal(back.cells[0].data, mesh.tets)
-    assert np.array_equal(back.cells[1].data, mesh.triangles)
+    if ending not in TETS_ONLY:
+        assert np.array_equal(back.cells[1].data, mesh.triangles)
     if ending in WITH_DATA:
         assert [list(map(int, part)) for part in back.cell_data["solid"]] == [[1, 2], [0] * 6]
         assert [list(map(int, part)) for part in back.cell_data["face"]] == [[0, 0], [1, 2, 3, 4, 5, 6]]
+
+
+def test_inp_files_hold_what_an_analysis_needs(tmp_path):
+    """Read here by hand: no number longer than the 20 characters of CalculiX, all names as sets."""
+    mesh = two_tets(2)
+    mesh.points *= -np.pi / 1e7
+    mesh.write(tmp_path / "a.inp")
+    blocks, rows = {}, None
+    for line in (tmp_path / "a.inp").read_text().splitlines():
+        cells = line.replace(" ", "").split(",")
+        if line.startswith("*"):
+            rows = blocks.setdefault(line, [])
+        else:
+            assert len(cells) <= 16 and max(map(len, cells)) <= 19
+            rows.extend(map(float, cells) if "NODE" in next(reversed(blocks)) else map(int, cells))
+    points = np.reshape(blocks["*NODE, NSET=Nall"], (-1, 4))
+    assert np.allclose(points[:, 1:], mesh.points, rtol=1e-11, atol=0)
+    tets = np.reshape(blocks["*ELEMENT, TYPE=C3D10, ELSET=Eall"], (-1, 11))
+    assert np.array_equal(tets, np.column_stack([[0, 1], mesh.tets]) + 1)
+    assert blocks["*ELSET, ELSET=Solid1"] == [1] and blocks["*ELSET, ELSET=Solid2"] == [2]
+    for name in ("Face1", "Face6", "Edge1"):
+        assert blocks["*NSET, NSET=" + name] == (mesh.nodes_of(name) + 1).tolist()
+    assert blocks["*NSET, NSET=Vertex3"] == [3]
+
+
+def test_msh_files_of_any_size_read_back(tmp_path):
+    """meshio 5.0 cuts other data than Gmsh's tags at two values."""
+    two = two_tets(1)
+    three = np.concatenate([two.tets, two.tets[:1]])
+    mesh = dataclasses.replace(two, tets=three, tet_solid=np.array([1, 2, 3], np.int32))
+    mesh.write(tmp_path / "a.msh")
+    back = meshio.read(tmp_path / "a.msh")
+    assert [list(part) for part in back.cell_data["gmsh:physical"]] == [[1, 2, 3], [1, 2, 3, 4, 5, 6]]
 
 
 @pytest.mark.parametrize("ending", meshfile.NASTRAN_ENDINGS)

@@ -36,8 +36,14 @@ class Calculation:
         self.analysis = analysis_of(target)
         if self.analysis is None:
             raise failure("no_analysis", "%s is in no analysis; drag it into one" % target.Label)
+        present = self.analysis.Group
         self.solver = solver_of(self.analysis)
-        check(self.analysis, self.solver, target)
+        try:
+            check(self.analysis, self.solver, target)
+        except MeshError:
+            if self.solver not in present:
+                target.Document.removeObject(self.solver.Name)
+            raise
         tool = CcxTools if kind_of(self.solver) == CCX_TOOLS else CalculixTools
         self.tool = tool(self.analysis, self.solver)
         self.process = None
@@ -158,6 +164,33 @@ def check(analysis, solver, target):
     missing = check_member_for_solver_calculix(analysis, solver, mesh, members).strip()
     if missing:
         raise failure("not_ready", missing.replace("\n", " "))
+    check_references(analysis, target)
+
+
+def check_references(analysis, target):
+    """Raise MeshError for a load or support without a node: FreeCAD would leave it out in silence."""
+    from femmesh import meshtools
+
+    for item in analysis.Group:
+        if not item.isDerivedFrom("Fem::Constraint") or not getattr(item, "References", None):
+            continue
+        if not getattr(item, "Suppressed", False) and not meshtools.get_femnodes_by_references(
+            target.FemMesh, item.References
+        ):
+            raise failure(
+                "no_nodes",
+                "%s: the mesh has no node on %s; mesh again, or refer to the part that is meshed"
+                % (item.Label, ", ".join(named(item.References))),
+            )
+
+
+def named(references):
+    """['Box.Face1', ...] of a References property."""
+    return [
+        "%s.%s" % (item.Label, element) if element else item.Label
+        for item, elements in references
+        for element in ([elements] if isinstance(elements, str) else elements or [""])
+    ]
 
 
 def ccx_program():

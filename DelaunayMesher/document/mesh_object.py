@@ -227,14 +227,30 @@ def places_of(shape):
 
 
 def is_current(target):
-    """Whether the object holds a mesh made from the part and the options as they are now.
+    """Whether the object holds a mesh made from the part and the options as they are now, which has nodes on
+    all that loads and mesh groups refer to (a seam, say, has none as long as nothing does).
 
     A mesh that came otherwise (an opened file, an earlier version) counts as current.  Raises InputError.
     """
     if not target.FemMesh.VolumeCount:
         return False
     made_from = stored_report(target).get("made_from")
-    return target.Shape is None or made_from in (None, collect(target).made_from)
+    if target.Shape is None or made_from is None:
+        return True
+    task = collect(target)
+    return made_from == task.made_from and has_all(target.FemMesh, task)
+
+
+def has_all(mesh, task):
+    """Whether a Fem.FemMesh of ours has the groups and the nodes that a Task asks for."""
+    present = {mesh.getGroupName(group) for group in mesh.Groups}
+    vertices = [name for name in task.keep if name.startswith("Vertex")]
+    wanted = {name for name in task.keep if name not in vertices}
+    return (
+        wanted <= present
+        and all(mesh.getNodesByVertex(task.shape.getElement(name)) for name in vertices)
+        and all(any(g == name or g.startswith(name + "_") for g in present) for name, _ in task.groups)
+    )
 
 
 def run(target, report=None, **extra):

@@ -12,18 +12,39 @@ def version():
 
 def shape_to_mesh(item):
     """The shape of `item` at the placement at which this FreeCAD's constraints search the mesh."""
-    return global_shape(item) if version() >= GLOBAL_SINCE else own_shape(item)
+    if version() >= GLOBAL_SINCE:
+        return global_shape(item)
+    shape = own_shape(item)
+    if shape is None or not item.isDerivedFrom("App::Part"):
+        return shape
+    shape = shape.copy()
+    shape.Placement = item.Placement.inverse().multiply(shape.Placement)
+    return shape
+
+
+def mesh_frame(item):
+    """The placement from the coordinates of the mesh of `item` to those of the document.
+
+    Before 1.0 FreeCAD searches the mesh at the placement that the parts of a container have in it.
+    """
+    import FreeCAD
+
+    if version() >= GLOBAL_SINCE:
+        return FreeCAD.Placement()
+    if item.isDerivedFrom("App::Part"):
+        return item.getGlobalPlacement()
+    return outer_placement(item) or FreeCAD.Placement()
 
 
 def own_shape(item):
     """The shape of `item` with its own placement (for a container of parts, of what it contains), or None."""
+    import Part
+
     shape = getattr(item, "Shape", None)
     if shape is None and hasattr(item, "TypeId"):
-        import Part
-
         found = Part.getShape(item)
         shape = None if found.isNull() else found
-    return shape
+    return shape if isinstance(shape, Part.Shape) else None
 
 
 def global_shape(item):
@@ -41,10 +62,7 @@ def placement_in_mesh(item, part):
     import FreeCAD
 
     outer = outer_placement(item) or FreeCAD.Placement()
-    if version() >= GLOBAL_SINCE:
-        return outer
-    around = outer_placement(part) or FreeCAD.Placement()
-    return around.inverse().multiply(outer)
+    return mesh_frame(part).inverse().multiply(outer)
 
 
 def outer_placement(item):

@@ -7,6 +7,8 @@ from ..errors import InputError
 from .find_freecad import find_freecad
 from .placement import global_shape
 
+ATTACHMENT = ("Support", "AttachmentSupport")  # up to FreeCAD 0.21, and later
+
 
 def read_shape(path, warnings=None):
     """Part shape of a .step .stp .iges .igs .brep or .FCStd file; InputError when it cannot be read.
@@ -74,7 +76,7 @@ def solid_objects(document):
     """Objects with solids that are results: visible, and not used up by another object with a solid."""
     solids = [item for item in document.Objects if has_solid(item)]
     results = [item for item in solids if not any(consumes(user, item) for user in item.InList)]
-    visible = [item for item in results if getattr(item, "Visibility", True)]
+    visible = [item for item in results if is_shown(item)]
     return visible or results
 
 
@@ -86,8 +88,26 @@ def has_solid(item):
     return hasattr(shape, "Solids") and not shape.isNull() and bool(shape.Solids)
 
 
+def is_shown(item):
+    """Whether the object and the parts that contain it are visible."""
+    parent = item.getParentGeoFeatureGroup()
+    return getattr(item, "Visibility", True) and (parent is None or is_shown(parent))
+
+
 def consumes(user, item):
-    """Whether `user` is built from `item`: a cut from its tool, a body from its features."""
-    if user.isDerivedFrom("App::LinkElement") or user.TypeId == "App::Link":
+    """Whether `user` is built from `item`: a cut from its tool, a body from its features, an array of links
+    from its elements.  A place (attachment) or a number (expression) that comes from there uses nothing up.
+    """
+    if user.TypeId == "App::Link":
+        return item in user.ElementList
+    if user.isDerivedFrom("App::LinkElement") or not has_solid(user):
         return False
-    return has_solid(user)
+    links = (name for name in user.PropertiesList if "Link" in user.getTypeIdOfProperty(name))
+    return any(refers(getattr(user, name), item) for name in links if name not in ATTACHMENT)
+
+
+def refers(value, item):
+    """Whether the value of a link property has the object in it."""
+    if isinstance(value, (list, tuple)):
+        return any(refers(part, item) for part in value)
+    return value == item

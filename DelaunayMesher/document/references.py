@@ -7,6 +7,7 @@ then looked for by its geometry.
 """
 
 from ..errors import InputError
+from ..sizing import parse_name
 from .placement import own_shape, placement_in_mesh
 
 REFINEMENT_LISTS = ("MeshRegionList", "MeshRefinementList")  # up to FreeCAD 1.1, and later
@@ -19,7 +20,7 @@ def referred_names(references, part, shape):
         if isinstance(elements, str):
             elements = (elements,)
         for element in [e for e in elements if e] or all_solids(item):
-            names.append(find_element(item, element.split(".")[-1], part, shape))
+            names.append(find_element(item, element, part, shape))
     return list(dict.fromkeys(names))
 
 
@@ -46,16 +47,25 @@ def find_element(item, element, part, shape):
 
 def matching_element(item, element, part, shape):
     """find_element, but None where there is none."""
-    if item in (part, getattr(part, "Tip", None)):  # a body has the elements of its last feature
-        return element
     from femtools import geomtools
 
     try:
-        wanted = geomtools.get_element(item, element).copy()
+        if "." in element:  # of an object in a container, of an element of an array
+            wanted = item.getSubObject(element).copy()
+        elif item in (part, getattr(part, "Tip", None)):  # a body has the elements of its last feature
+            return element if has_element(shape, element) else None
+        else:
+            wanted = geomtools.get_element(item, element).copy()
         wanted.Placement = placement_in_mesh(item, part).multiply(wanted.Placement)
         return geomtools.find_element_in_shape(shape, wanted)
     except Exception:  # FreeCAD has several for an element that is gone and for an object without a shape
         return None
+
+
+def has_element(shape, name):
+    """Whether a shape has an element 'Face3', 'Edge1', 'Vertex2' or 'Solid1'."""
+    kind, number = parse_name(name)
+    return 0 < number <= len(getattr(shape, "Vertexes" if kind == "Vertex" else kind + "s"))
 
 
 def refinement_objects(target):
@@ -104,7 +114,6 @@ def constraint_names(analysis, part, shape):
     names = []
     for item in analysis.Group if analysis else ():
         for other, elements in getattr(item, "References", None) or ():
-            wanted = [element.split(".")[-1] for element in elements if element]
-            wanted = [element for element in wanted if element.startswith(("Face", "Edge", "Vertex"))]
+            wanted = [e for e in elements if e.split(".")[-1].startswith(("Face", "Edge", "Vertex"))]
             names += [matching_element(other, element, part, shape) for element in wanted]
     return [name for name in names if name]

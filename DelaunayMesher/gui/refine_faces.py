@@ -45,16 +45,12 @@ def refine_here(selection):
 
 def place_of(chosen, part):
     """The selected place in the coordinates of the mesh."""
-    from ..document.placement import GLOBAL_SINCE, outer_placement, shape_to_mesh, version
+    from ..document.placement import mesh_frame, shape_to_mesh
 
     name = chosen.SubElementNames[0]
     if name.startswith("Vertex"):
         return shape_to_mesh(part).getElement(name).Point
-    place = chosen.PickedPoints[0]
-    outer = outer_placement(part)
-    if outer is not None and version() < GLOBAL_SINCE:
-        place = outer.inverse().multVec(place)
-    return place
+    return mesh_frame(part).inverse().multVec(chosen.PickedPoints[0])
 
 
 def selected_elements(selection):

@@ -58,6 +58,40 @@ def test_several_solids_make_a_compound(document, tmp_path):
     assert len(read_shape(saved(document, tmp_path)).Solids) == 1
 
 
+def test_solids_that_only_take_a_place_or_a_number_from_another_use_nothing_up(document, tmp_path):
+    one, two, three = (document.addObject("Part::Box", name) for name in ("One", "Two", "Three"))
+    two.setExpression("Length", "One.Length")
+    two.Placement.Base.x = 50
+    setattr(three, "Support" if hasattr(three, "Support") else "AttachmentSupport", [(one, "Face6")])
+    three.MapMode = "FlatFace"
+    assert len(read_shape(saved(document, tmp_path)).Solids) == 3
+
+
+@pytest.mark.parametrize("shown", [True, False])
+def test_an_array_of_links_counts_once(document, tmp_path, shown):
+    box, links = document.addObject("Part::Box", "Box"), document.addObject("App::Link", "Links")
+    links.LinkedObject, links.ElementCount, links.ShowElement = box, 3, shown
+    box.Visibility = False
+    document.recompute()
+    places = [FreeCAD.Placement(FreeCAD.Vector(0, 30 * k, 0), FreeCAD.Rotation()) for k in range(3)]
+    if shown:
+        for element, place in zip(links.ElementList, places):
+            element.Placement = place
+    else:
+        links.PlacementList = places
+    shape = read_shape(saved(document, tmp_path))
+    assert len(shape.Solids) == 3 and shape.BoundBox.YMax == pytest.approx(70)
+
+
+def test_what_a_hidden_container_holds_is_hidden(document, tmp_path):
+    part, box = document.addObject("App::Part", "Part"), document.addObject("Part::Box", "Inside")
+    part.addObject(box)
+    part.Visibility = False
+    outside = document.addObject("Part::Box", "Outside")
+    outside.Placement.Base.x = 50
+    assert read_shape(saved(document, tmp_path)).BoundBox.XMin == pytest.approx(50)
+
+
 def test_a_body_counts_once(document, tmp_path):
     body = document.addObject("PartDesign::Body", "Body")
     box = body.newObject("PartDesign::AdditiveBox", "Box")

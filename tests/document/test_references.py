@@ -105,3 +105,46 @@ def test_a_container_with_nothing_visible(file):
     with pytest.raises(InputError, match="no visible shape") as caught:
         document.run(target)
     assert caught.value.code == "no_shape"
+
+
+def group(target, *reference):
+    """A mesh group of the mesh object that refers to an element; the names of all groups after a run."""
+    made = ObjectsFem.makeMeshGroup(target.Document, target, name="Chosen")
+    made.References = [reference]
+    document.run(target)
+    mesh = target.FemMesh
+    number = next(k for k in mesh.Groups if mesh.getGroupName(k) == made.Name)
+    faces = mesh.getGroupElements(number)
+    return np.array([mesh.getNodeById(node) for face in faces for node in mesh.getElementNodes(face)])
+
+
+@pytest.mark.parametrize("element", ["Face9", "Edge99", "Solid2", "Vertex99"])
+def test_a_group_of_what_the_part_does_not_have(file, element):
+    box = file.addObject("Part::Box", "Box")
+    file.recompute()
+    with pytest.raises(InputError, match="%s of Box" % element):
+        group(document.add_mesh(box, max_size=4.0), box, element)
+
+
+def test_a_path_into_a_container(file):
+    part, boxes = (
+        file.addObject("App::Part", "Assembly"),
+        [file.addObject("Part::Box", n) for n in ("A", "B")],
+    )
+    boxes[1].Placement.Base.x = 30
+    part.addObjects(boxes)
+    file.recompute()
+    nodes = group(document.add_mesh(part, max_size=4.0), part, "B.Face1")
+    assert len(nodes) > 4 and np.allclose(nodes[:, 0], 30)
+
+
+def test_a_mesh_is_no_part(file):
+    box = file.addObject("Part::Box", "Box")
+    file.recompute()
+    target = document.add_mesh(box, max_size=4.0)
+    with pytest.raises(InputError, match="no shape to mesh"):
+        document.add_mesh(target, max_size=4.0)
+    other = document.add_mesh(box, max_size=4.0)
+    other.Shape = target
+    with pytest.raises(InputError, match="no visible shape"):
+        document.run(other)
