@@ -279,6 +279,10 @@ def body_of(item):
 
 
 def is_part(item):
-    """Whether an object has a shape: a feature, a body, a part container, or a link to one."""
-    linked = item.getLinkedObject(True) if hasattr(item, "getLinkedObject") else item
-    return any(linked.isDerivedFrom(kind) for kind in WITH_SHAPE)
+    """Whether an object has a shape: a feature, a body, a part container, or links to one."""
+    linked = getattr(item, "LinkedObject", None)
+    if linked is not None:
+        return is_part(linked)
+    if item.TypeId == "App::LinkGroup":
+        return any(is_part(element) for element in item.ElementList)
+    return any(item.isDerivedFrom(kind) for kind in WITH_SHAPE)

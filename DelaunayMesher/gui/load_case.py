@@ -32,6 +32,9 @@ def make(selection, maker, title):
     if not references:
         show_error(tr("Select faces, edges or vertices of one part."))
         return None
+    if any(item.isDerivedFrom("App::Link") for item, _ in references):  # before 1.0 it ends FreeCAD
+        show_error(tr("FreeCAD cannot put loads and supports on links. Mesh and load a copy instead."))
+        return None
     import ObjectsFem
 
     document = references[0][0].Document

@@ -4,7 +4,7 @@ and a size region round a selected place.
 
 import FreeCADGui
 
-from .commands import body_of, is_our_mesh
+from .commands import is_our_mesh
 from .guards import undo_step
 from .start_mesh import panel_is_open, show_error
 from .texts import tr
@@ -46,10 +46,12 @@ def refine_here(selection):
 def place_of(chosen, part):
     """The selected place in the coordinates of the mesh."""
     from ..document.placement import mesh_frame, shape_to_mesh
+    from ..document.references import find_element
 
     name = chosen.SubElementNames[0]
     if name.startswith("Vertex"):
-        return shape_to_mesh(part).getElement(name).Point
+        shape = shape_to_mesh(part)
+        return shape.getElement(find_element(chosen.Object, name, part, shape)).Point
     return mesh_frame(part).inverse().multVec(chosen.PickedPoints[0])
 
 
@@ -61,17 +63,21 @@ def selected_elements(selection):
     if len(chosen) != 1:
         show_error(tr("Select faces, edges or vertices of one part."))
         return None, None
-    part = chosen[0].Object
-    meshes = meshes_of(part) or meshes_of(body_of(part))
-    if not meshes:
+    mesh = mesh_of(chosen[0].Object)
+    if mesh is None:
         show_error(tr("This part has no mesh object yet. Use 'Mesh this solid' first."))
         return None, None
-    return chosen[0], meshes[0]
+    return chosen[0], mesh
 
 
-def meshes_of(part):
-    """The mesh objects of ours that mesh this object."""
-    return [item for item in part.Document.Objects if is_our_mesh(item) and item.Shape == part]
+def mesh_of(part):
+    """The first mesh object of ours for this object, or else for the body or container that it is in."""
+    while part is not None:
+        for item in part.Document.Objects:
+            if is_our_mesh(item) and item.Shape == part:
+                return item
+        part = part.getParentGeoFeatureGroup()
+    return None
 
 
 def create(selection, title, new):

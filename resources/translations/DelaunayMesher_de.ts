@@ -196,6 +196,10 @@
       <translation>Wählen Sie Flächen, Kanten oder Ecken eines einzigen Teils.</translation>
     </message>
     <message>
+      <source>FreeCAD cannot put loads and supports on links. Mesh and load a copy instead.</source>
+      <translation>FreeCAD kann Lasten und Lager nicht auf Verknüpfungen setzen. Vernetzen und belasten Sie stattdessen eine Kopie.</translation>
+    </message>
+    <message>
       <source>Smallest dihedral angle</source>
       <translation>Kleinster Flächenwinkel</translation>
     </message>
@@ -612,8 +616,8 @@
       <translation>Min. Größe</translation>
     </message>
     <message>
-      <source>Smallest edge length that curvature and walls get; automatic: 1/100 of Max size, 1/50 at walls</source>
-      <translation>Kleinste Kantenlänge für Krümmung und Wände; automatisch: 1/100 der max. Größe, 1/50 an Wänden</translation>
+      <source>Smallest edge length, given sizes included; automatic: 1/100 of Max size at curves, 1/50 at walls</source>
+      <translation>Kleinste Kantenlänge, auch vorgegebener Größen; automatisch: 1/100 der maximalen Größe an Krümmungen, 1/50 an Wänden</translation>
     </message>
     <message>
       <source>Growth rate</source>

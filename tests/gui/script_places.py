@@ -7,6 +7,9 @@ import FreeCAD
 import FreeCADGui
 from drive import say, wait
 
+from DelaunayMesher.document import run
+from DelaunayMesher.document.references import refinement_objects
+
 TURNED = FreeCAD.Placement(FreeCAD.Vector(100, 0, 0), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 90))
 
 
@@ -74,7 +77,7 @@ def expected(own, everywhere):
 
 # A container's shape is that of its visible parts: it comes before the box, which a run hides.
 CASES = (  # selected object, element below it, meshed object, own and global bounding box
-    ("Turned", "", "Turned", [60, 0, 0, 80, 10, 30], [60, 0, 0, 80, 10, 30]),
+    ("Turned", "", "Turned", [0, 20, 0, 10, 40, 30], [60, 0, 0, 80, 10, 30]),
     ("Link", "Face2", "Link", [0, 0, 300, 10, 20, 330], [0, 0, 300, 10, 20, 330]),
     ("LinkToPart", "", "LinkToPart", [0, 20, 700, 10, 40, 730], [0, 20, 700, 10, 40, 730]),
     ("Turned", "Box.Face1", "Box", [0, 20, 0, 10, 40, 30], [60, 0, 0, 80, 10, 30]),
@@ -84,17 +87,57 @@ CASES = (  # selected object, element below it, meshed object, own and global bo
 )
 
 
-def nodes_are_found(target):
+def nodes_are_found(document, target):
     """FreeCAD's own search finds the nodes of a face."""
     try:
         from femmesh.meshtools import sub_shape_at_global_placement
     except ImportError:  # before 1.0
-        face = target.Shape.Shape.getElement("Face1")
+        face = (document.Box if target.Shape == document.Turned else target.Shape).Shape.getElement("Face1")
     else:
         if not hasattr(target.Shape, "getGlobalPlacement") or target.Shape.isDerivedFrom("App::Part"):
             return  # a link or a container: FreeCAD itself cannot look there
         face = sub_shape_at_global_placement(target.Shape, "Face1")
     assert len(target.FemMesh.getNodesByFace(face)) >= 8
+
+
+def an_array_can_be_meshed(document):
+    array = document.addObject("App::Link", "Array")
+    array.LinkedObject, array.ElementCount = document.Source, 3
+    document.recompute()
+    drive.select(array)
+    wait(0.1)
+    assert FreeCADGui.Command.get("DelaunayMesher_MeshSolid").isActive()
+    document.removeObject(array.Name)
+
+
+def loads_on_links_are_refused(document):
+    """FreeCAD 0.20 would end here."""
+    count = len(document.Objects)
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(document.Name, "Link", "Face2")
+    said = drive.message_of(lambda: FreeCADGui.runCommand("DelaunayMesher_Fix"))
+    assert "links" in said and len(document.Objects) == count, said
+
+
+def faces_in_a_meshed_container_can_be_refined(document):
+    """A click selects the box, not the container that has the mesh."""
+    box = document.addObject("Part::Box", "Part")
+    container = document.addObject("App::Part", "Container")
+    container.Placement = TURNED
+    container.addObject(box)
+    document.recompute()
+    target = mesh(document, "Container", "")
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(document.Name, "Container", "Part.Face1")
+    wait(0.1)
+    FreeCADGui.runCommand("DelaunayMesher_RefineFaces")
+    wait(0.2)
+    FreeCADGui.Control.closeDialog()
+    before = target.FemMesh.VolumeCount
+    (made,) = refinement_objects(target)
+    made.CharacteristicLength = 0.5
+    run(target)
+    assert target.FemMesh.VolumeCount > 2 * before
 
 
 def main():
@@ -105,7 +148,10 @@ def main():
         found = corners(target.FemMesh.BoundBox)
         say(chosen, element, "->", target.Shape.Name, found)
         assert target.Shape.Name == meshed and found == expected(own, everywhere)
-        nodes_are_found(target)
+        nodes_are_found(document, target)
+    an_array_can_be_meshed(document)
+    loads_on_links_are_refused(document)
+    faces_in_a_meshed_container_can_be_refined(document)
     drive.view_all()
     drive.picture("places")
 
