@@ -84,7 +84,7 @@ class Option:
 
 OPTIONS = (
     Option(
-        "max_size", "length", None, 0, None,
+        "max_size", "length", None, 0, 1e15,
         "largest edge length of the elements; automatic: 1/20 of the diagonal of the part",
         "MaxSize", "App::PropertyLength", "Size", "Max size", "mm", True, metavar="MM",
     ),

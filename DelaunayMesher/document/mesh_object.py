@@ -85,6 +85,8 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
 
     if own_shape(part) is None:
         raise InputError("options", "no_shape", "%s has no shape to mesh" % getattr(part, "Label", part))
+    if analysis is not None and not analysis.isDerivedFrom("Fem::FemAnalysis"):
+        raise InputError("options", "no_analysis", "%s is no analysis" % analysis.Label)
     chosen = make_options(None, **options)
     if chosen.size_points is not None:
         raise InputError("options", "not_stored", "size_points are not kept in documents; give them to run()")

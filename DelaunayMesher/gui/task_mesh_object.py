@@ -137,10 +137,11 @@ class MeshPanel:
             job.store(target)
             self.run_box.succeed(job, mesh_object.stored_report(target))
 
-    def follow(self):
-        """The mesh object's report has changed, by undo for instance."""
-        if not self.running:
+    def follow(self, name):
+        """A property of the mesh object has changed, by undo for instance."""
+        if name == "Report" and not self.running:
             self.run_box.show_report(mesh_object.stored_report(self.target))
+        self.options_box.follow(self.target, name)
 
     def show_quality(self):
         """Close this panel and open the one about quality, after the button has dealt with the click."""
@@ -251,6 +252,12 @@ class OptionsBox(QtGui.QWidget):
             return
         count = estimate.two_digits(estimate.uniform_count(self.shape, largest))
         self.count.setText(tr("At least %s tetrahedra, more round curves and walls") % number(count))
+
+    def follow(self, target, name):
+        """Show the option that this property of the mesh object holds; expressions show themselves."""
+        for field in self.fields.values():
+            if field.option.property_name == name and is_changed(field, target):
+                field.set(get_option(target, field.option))
 
     def store(self, target):
         """Write changed values into the mesh object, as one step that can be undone."""

@@ -31,11 +31,10 @@ class VPMeshDelaunay(Stateless):
         return icon("mesh_object")
 
     def updateData(self, target, name):
-        """An open panel shows the figures of the mesh that undo or redo has brought back."""
-        if name == "Report":
-            panel = open_panel(target)
-            if panel:
-                panel.follow()
+        """An open panel shows the options and the figures that undo, redo or a script has brought."""
+        panel = open_panel(target)
+        if panel:
+            panel.follow(name)
 
     def onChanged(self, view, name):
         """Nothing follows from view properties."""

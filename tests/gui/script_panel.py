@@ -150,7 +150,11 @@ def undo_a_run(target):
     target.Document.undo()
     target.Document.undo()  # the options
     assert target.MaxSize.Value == 1.0
-    panel.options_box.fields["max_size"].write(1.0)
+    field = panel.options_box.fields["max_size"]
+    assert field.value() == 1.0  # it follows, so that nothing writes the old value down again
+    target.Growth = 0.25  # as does one that a script changes
+    assert panel.options_box.fields["growth"].value() == 0.25
+    target.Growth = 0.35
 
 
 def undo_after_a_script(target):
