@@ -101,6 +101,10 @@ def write_with_meshio(path, mesh):
         meshio.write(path, mesh)
     elif ending == ".xdmf":
         meshio.write(path, mesh, data_format="XML")  # one file, and no need of h5py
+    elif ending == ".vtk":  # VTK does not know the vtktypeint32 that meshio would write
+        wide = {name: [part.astype(np.int64) for part in parts] for name, parts in mesh.cell_data.items()}
+        mesh.cell_data = wide
+        meshio.write(path, mesh)
     elif ending in NASTRAN_ENDINGS:
         solids, faces = mesh.cell_data["solid"][0], mesh.cell_data["face"][1]
         mesh.cell_data = {"nastran:ref": [solids, solids.max() + faces]}  # properties share their numbers

@@ -99,6 +99,12 @@ def test_inp_files_hold_what_an_analysis_needs(tmp_path):
     assert blocks["*NSET, NSET=Vertex3"] == [3]
 
 
+def test_vtk_files_have_types_that_vtk_knows(tmp_path):
+    two_tets(1).write(tmp_path / "a.vtk")
+    written = (tmp_path / "a.vtk").read_bytes()
+    assert b"face 1 8 vtktypeint64" in written and b"vtktypeint32" not in written
+
+
 def test_msh_files_of_any_size_read_back(tmp_path):
     """meshio 5.0 cuts other data than Gmsh's tags at two values."""
     two = two_tets(1)
