@@ -19,24 +19,14 @@ def write_inp(path, mesh):
         file.write("*ELEMENT, TYPE=C3D%d, ELSET=Eall\n" % mesh.tets.shape[1])
         numbered = np.column_stack([np.arange(len(mesh.tets)), mesh.tets]) + 1
         file.writelines(", ".join(map(str, row)) + "\n" for row in numbered.tolist())
-        for solid, tets in members(mesh.tet_solid):
-            write_set(file, "*ELSET, ELSET=Solid%d" % solid, tets)
-        for kind, cells, owner in (
-            ("Face", mesh.triangles, mesh.triangle_face),
-            ("Edge", mesh.lines, mesh.line_edge),
-        ):
-            for index, rows in members(owner):
-                write_set(file, "*NSET, NSET=%s%d" % (kind, index + 1), np.unique(cells[rows]))
+        cells = {"Edge": mesh.lines, "Face": mesh.triangles}
+        for name, (kind, rows) in mesh.element_rows().items():
+            if kind == "Volume":
+                write_set(file, "*ELSET, ELSET=" + name, rows)
+            else:
+                write_set(file, "*NSET, NSET=" + name, np.unique(cells[kind][rows]))
         for point in np.flatnonzero(mesh.point_dimension == 0).tolist():
             write_set(file, "*NSET, NSET=Vertex%d" % (mesh.point_entity[point] + 1), np.array([point]))
-
-
-def members(owner):
-    """(owner, rows that it owns) for each owner that is no placeholder (-1)."""
-    order = np.argsort(owner, kind="stable")
-    owners, starts = np.unique(owner[order], return_index=True)
-    parts = zip(owners.tolist(), np.split(order, starts[1:]))
-    return [(index, rows) for index, rows in parts if index >= 0]
 
 
 def write_set(file, head, rows):

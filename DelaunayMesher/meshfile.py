@@ -14,8 +14,8 @@ from .vtufile import write_vtu
 FREECAD_ENDING = ".fcstd"
 VTU_ENDING = ".vtu"
 OWN_WRITERS = {VTU_ENDING: write_vtu, ".inp": write_inp}
-# Formats that hold tetrahedra and triangles of both orders and read back the same.
 NASTRAN_ENDINGS = (".bdf", ".nas")
+# Formats that hold tetrahedra and, but for .inp, triangles, and read back the same.
 MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", *NASTRAN_ENDINGS, ".mesh")
 
 

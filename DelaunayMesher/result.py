@@ -73,6 +73,31 @@ class Mesh:
             return np.unique(self.tets[self.tet_solid == number])
         return np.flatnonzero((self.point_dimension == 0) & (self.point_entity == number - 1))
 
+    def element_rows(self, aliases=None):
+        """{'Edge1': ('Edge', rows (n,) of lines), 'Face3': ('Face', of triangles), 'Solid1': ('Volume', of
+        tets), ...} of all CAD elements that have mesh elements.
+
+        aliases: touching.Aliases, default the mesh's own; CAD elements that were merged into others have the
+        rows of those.
+        """
+        found = {}
+        for prefix, kind, owner, offset in (
+            ("Edge", "Edge", self.line_edge, 1),
+            ("Face", "Face", self.triangle_face, 1),
+            ("Solid", "Volume", self.tet_solid, 0),
+        ):
+            order = np.argsort(owner, kind="stable")
+            owners, starts = np.unique(owner[order], return_index=True)
+            for index, rows in zip(owners.tolist(), np.split(order, starts[1:])):
+                if index + offset > 0:
+                    found["%s%d" % (prefix, index + offset)] = (kind, rows)
+        for prefix, table in (("Face", "faces"), ("Edge", "edges")):
+            for dropped, kept in getattr(aliases or self.aliases, table, {}).items():
+                source = found.get("%s%d" % (prefix, kept + 1))
+                if source:
+                    found["%s%d" % (prefix, dropped + 1)] = source
+        return found
+
     def write(self, path):
         """Write the mesh; the ending decides the format (meshfile.write_mesh)."""
         from .meshfile import write_mesh

@@ -104,32 +104,12 @@ def add_groups(target, groups):
 
 def all_groups(mesh, members, groups, aliases):
     """(name, kind, numbers (n,)) of the groups of all CAD elements and of the `groups` asked for."""
-    collected = element_groups(mesh, members, aliases or mesh.aliases)
+    rows = mesh.element_rows(aliases)
+    collected = {name: (kind, members[kind][own]) for name, (kind, own) in rows.items()}
     result = [(name, kind, numbers) for name, (kind, numbers) in collected.items()]
     for name, names in groups:
         result += named_groups(name, names, collected, mesh)
     return result
-
-
-def element_groups(mesh, members, aliases):
-    """{'Face3': ('Face', element numbers), ...} of all CAD elements that have mesh elements."""
-    groups = {}
-    for prefix, kind, owner, offset in (
-        ("Edge", "Edge", mesh.line_edge, 1),
-        ("Face", "Face", mesh.triangle_face, 1),
-        ("Solid", "Volume", mesh.tet_solid, 0),
-    ):
-        order = np.argsort(owner, kind="stable")
-        owners, starts = np.unique(owner[order], return_index=True)
-        for index, numbers in zip(owners.tolist(), np.split(members[kind][order], starts[1:])):
-            if index + offset > 0:
-                groups["%s%d" % (prefix, index + offset)] = (kind, numbers)
-    for prefix, table in (("Face", "faces"), ("Edge", "edges")):
-        for dropped, kept in getattr(aliases, table, {}).items():
-            source = groups.get("%s%d" % (prefix, kept + 1))
-            if source:
-                groups["%s%d" % (prefix, dropped + 1)] = source
-    return groups
 
 
 def named_groups(name, names, collected, mesh):

@@ -108,7 +108,7 @@ def test_a_container_with_nothing_visible(file):
 
 
 def group(target, *reference):
-    """A mesh group of the mesh object that refers to an element; the names of all groups after a run."""
+    """Makes a mesh group that refers to an element and runs the mesh object; the nodes in it, (n, 3)."""
     made = ObjectsFem.makeMeshGroup(target.Document, target, name="Chosen")
     made.References = [reference]
     document.run(target)
