@@ -149,11 +149,11 @@ def main():
         say(chosen, element, "->", target.Shape.Name, found)
         assert target.Shape.Name == meshed and found == expected(own, everywhere)
         nodes_are_found(document, target)
+    drive.view_all()
+    drive.picture("places")
     an_array_can_be_meshed(document)
     loads_on_links_are_refused(document)
     faces_in_a_meshed_container_can_be_refined(document)
-    drive.view_all()
-    drive.picture("places")
 
 
 drive.start(main, "PLACES")
