@@ -31,7 +31,7 @@ def parser():
         help=".step .iges .brep .FCStd through FreeCAD; .stl .off .ply .obj .mesh .vtk .poly .smesh without",
     )
     result.add_argument(
-        "-o", "--output", required=True, metavar="OUTPUT", help=".FCStd .inp .vtu .msh .med .xdmf ..."
+        "-o", "--output", required=True, metavar="OUTPUT", help=".FCStd .inp .vtu .msh .med .unv ..."
     )
     for option in OPTIONS:
         add_option(result, option)

@@ -1,4 +1,4 @@
-"""Write meshes: FreeCAD documents through document, .vtu and .inp by themselves, all else through meshio."""
+"""Write meshes: .vtu and .inp by our own writers, .FCStd, .med and .unv by FreeCAD, all else by meshio."""
 
 import os
 import tempfile
@@ -12,11 +12,22 @@ from .surfacefile import import_meshio
 from .vtufile import write_vtu
 
 FREECAD_ENDING = ".fcstd"
+BY_FREECAD = (FREECAD_ENDING, ".med", ".unv")
 VTU_ENDING = ".vtu"
-OWN_WRITERS = {VTU_ENDING: write_vtu, ".inp": write_inp}
 NASTRAN_ENDINGS = (".bdf", ".nas")
-# Formats that hold tetrahedra and, but for .inp, triangles, and read back the same.
-MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".xdmf", *NASTRAN_ENDINGS, ".mesh")
+# Formats that hold tetrahedra and, but for .inp, triangles.
+MESH_ENDINGS = (".inp", VTU_ENDING, ".vtk", ".msh", ".med", ".unv", ".xdmf", *NASTRAN_ENDINGS, ".mesh")
+
+
+def write_by_freecad(path, mesh):
+    """Write .med or .unv, with a group for each CAD element, as FreeCAD does."""
+    from . import document
+
+    document.fem_mesh(mesh).write(path)
+
+
+# meshio's .med files have the nodes in VTK's order and no groups, and FreeCAD finds no nodes in them.
+OWN_WRITERS = {VTU_ENDING: write_vtu, ".inp": write_inp, ".med": write_by_freecad, ".unv": write_by_freecad}
 
 
 def check_output(path):
@@ -31,14 +42,14 @@ def check_output(path):
         raise _unwritable("%s is a folder" % path)
     if os.path.exists(place) and not os.access(place, os.W_OK):
         raise _unwritable("%s: no permission to replace it" % path)
-    if ending_of(path) == FREECAD_ENDING:
-        return
-    if ending_of(path) not in MESH_ENDINGS:
+    if ending_of(path) in BY_FREECAD:
+        from . import document  # noqa: F401  raises when there is no FreeCAD
+    elif ending_of(path) not in MESH_ENDINGS:
         known = ".FCStd " + " ".join(MESH_ENDINGS)
         raise _unwritable(
             "%s: cannot write %r files, only %s" % (path, ending_of(path), known), "unknown_format"
         )
-    if ending_of(path) not in OWN_WRITERS:
+    elif ending_of(path) not in OWN_WRITERS:
         import_meshio()
 
 
@@ -80,8 +91,6 @@ def write_mesh(path, mesh):
                 write_with_meshio(target, to_meshio(mesh))
             for name in os.listdir(workshop):  # some formats take several files
                 os.replace(os.path.join(workshop, name), os.path.join(folder, name))
-    except ImportError as error:
-        raise _unwritable("%s: this format needs a package: %s" % (path, error), "no_package") from None
     except OSError as error:
         raise _unwritable("%s: %s" % (path, error)) from None
 
@@ -100,7 +109,7 @@ def write_with_meshio(path, mesh):
         mesh.cell_data = {"medit:ref": _tags(mesh)}
         meshio.write(path, mesh)
     elif ending == ".xdmf":
-        meshio.write(path, mesh, data_format="XML")  # one file, and no need of h5py
+        meshio.write(path, mesh, data_format="XML")  # one file
     elif ending == ".vtk":  # VTK does not know the vtktypeint32 that meshio would write
         wide = {name: [part.astype(np.int64) for part in parts] for name, parts in mesh.cell_data.items()}
         mesh.cell_data = wide

@@ -16,7 +16,7 @@ MIRROR=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
 PLACE=/srv/DelaunayMesher # in the folder
 LONGEST=1500              # seconds for a test run; tests of the window have limits of their own
 RUN=(freecad xvfb xauth libgl1-mesa-dri python3-vtk9
-  python3-numpy python3-scipy python3-matplotlib python3-meshio python3-h5py python3-pytest python3-hypothesis)
+  python3-numpy python3-scipy python3-matplotlib python3-meshio python3-pytest python3-hypothesis)
 BUILD=(g++ cmake ninja-build doctest-dev python3-dev python3-pip freecad-python3)
 
 say() { printf '\n-- %s (%s)\n' "$*" "$(date +%T)"; }

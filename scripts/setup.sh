@@ -11,7 +11,7 @@ NANOBIND_VERSION=2.9.2
 PYTHON=/usr/bin/python3 # the Python that Debian's FreeCAD is built for
 PACKAGES=(
   g++ cmake ninja-build doctest-dev
-  python3-dev python3-pip python3-numpy python3-scipy python3-meshio python3-h5py python3-matplotlib
+  python3-dev python3-pip python3-numpy python3-scipy python3-meshio python3-matplotlib
   python3-pytest python3-hypothesis
   freecad-python3
 )

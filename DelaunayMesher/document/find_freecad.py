@@ -54,8 +54,8 @@ def find_freecad():
     raise MeshError(
         "document",
         "no_freecad",
-        "CAD files need FreeCAD (%s). Install it, or set FREECAD_LIB to the folder that holds its modules."
-        % tried,
+        "CAD files and .FCStd, .med or .unv output need FreeCAD (%s). Install it, or set FREECAD_LIB to the "
+        "folder that holds its modules." % tried,
     )
 
 

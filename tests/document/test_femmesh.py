@@ -50,6 +50,25 @@ def test_groups_mean_the_elements_that_the_mesh_says(mesh):
     assert sorted(contents(filled)["Solid1"][1]) == sorted(filled.Volumes)
 
 
+@pytest.mark.parametrize("ending", [".med", ".unv"])
+def test_freecad_reads_its_files_back_with_all_groups(mesh, tmp_path, ending):
+    mesh.write(tmp_path / ("a" + ending))
+    made, read = document.fem_mesh(mesh), Fem.read(str(tmp_path / ("a" + ending)))
+    assert places_of_groups(read) == places_of_groups(made)
+    assert len(places_of_groups(read)["Solid1"]) == len(mesh.tets)
+    points = np.array([read.Nodes[number] for number in sorted(read.Nodes)])
+    assert np.abs(points - mesh.points).max() < 1e-9
+
+
+def places_of_groups(filled):
+    """{name: the elements as the places of their nodes in order} of the groups."""
+    places = {number: tuple(np.round(place, 6)) for number, place in filled.Nodes.items()}
+    return {
+        name: {tuple(places[node] for node in filled.getElementNodes(number)) for number in numbers}
+        for name, (_, numbers) in contents(filled).items()
+    }
+
+
 def test_other_numbers_than_expected_are_noticed():
     target = Fem.FemMesh()
     target.addNode(9.0, 9.0, 9.0)
