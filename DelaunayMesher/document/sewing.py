@@ -1,9 +1,11 @@
 """Faces without a solid (an IGES file, a sewn import) -> solids.
 
 Idea: OCC sews what agrees within 1e-6 mm. Shells that stay open are put into one solid when each of their
-free edges lies on another free edge; the tessellation is closed there later (stitching.py). Postcondition:
-nothing is invented: a shell whose free edges have no partner stays a shell. Limits: closed shells inside one
-another are taken as solids with cavities; of faces beside solids nothing is made.
+free edges lies on another free edge; the tessellation is closed there later (stitching.py). An IGES file has
+a group of faces for each solid; those that close are sewn alone, as faces of solids that touch would be sewn
+to each other. Postcondition: nothing is invented: a shell whose free edges have no partner stays a shell.
+Limits: closed shells inside one another are taken as solids with cavities; of faces beside solids nothing is
+made.
 """
 
 import numpy as np
@@ -19,16 +21,7 @@ def with_solids(shape, warnings):
     """The shape itself if it has solids, else its faces sewn to solids, else itself; tells in `warnings`."""
     if shape.Solids or not shape.Faces:
         return shape
-    sewn = shape.copy()
-    sewn.sewShape()
-    shells = sewn.Shells
-    loose = len(sewn.Faces) - sum(len(shell.Faces) for shell in shells)
-    shells += [Part.Shell([face]) for face in sewn.Faces if not in_a_shell(face, shells)] if loose else []
-    solids = [Part.Solid(shell) for shell in shells if shell.isClosed()]
-    solids = with_cavities([outward(solid) for solid in solids])
-    rest = [shell for shell in shells if not shell.isClosed()]
-    groups, left = partners(rest, SEWING * shape.BoundBox.DiagonalLength)
-    solids += [Part.makeSolid(Part.Compound(group)) for group in groups]
+    solids, left = closed_groups(face_groups(shape), SEWING * shape.BoundBox.DiagonalLength)
     if not solids:
         return shape
     warnings.append(
@@ -41,6 +34,44 @@ def with_solids(shape, warnings):
         )
     )
     return solids[0] if len(solids) == 1 else Part.Compound(solids)
+
+
+def face_groups(shape):
+    """Lists of faces: those that stand together in one compound of a shape, not in one inside it."""
+    if shape.ShapeType != "Compound":
+        return [shape.Faces]
+    parts = shape.childShapes()
+    own = [face for part in parts if part.ShapeType != "Compound" for face in part.Faces]
+    inner = [group for part in parts if part.ShapeType == "Compound" for group in face_groups(part)]
+    return ([own] if own else []) + inner
+
+
+def closed_groups(groups, tolerance):
+    """(solids, faces left out) of groups of faces: each alone where it closes, the others together."""
+    each = [(faces, *sewn(faces, tolerance)) for faces in groups]
+    solids = [solid for _, closed, left in each if not left for solid in closed]
+    unclosed = [result for result in each if result[2]]
+    more, left = [], 0
+    if len(unclosed) == 1:
+        _, more, left = unclosed[0]
+    elif unclosed:
+        more, left = sewn([face for faces, *_ in unclosed for face in faces], tolerance)
+    solids += more
+    tight = [solid for solid in solids if solid.isClosed()]
+    return with_cavities(tight) + [solid for solid in solids if not solid.isClosed()], left
+
+
+def sewn(faces, tolerance):
+    """(solids, how many faces left out) of faces sewn by OCC, shells that stay open with their partners()."""
+    together = Part.Compound(faces)
+    together.sewShape()
+    shells = together.Shells
+    loose = len(together.Faces) - sum(len(shell.Faces) for shell in shells)
+    if loose:
+        shells += [Part.Shell([face]) for face in together.Faces if not in_a_shell(face, shells)]
+    solids = [outward(Part.Solid(shell)) for shell in shells if shell.isClosed()]
+    groups, left = partners([shell for shell in shells if not shell.isClosed()], tolerance)
+    return solids + [Part.makeSolid(Part.Compound(group)) for group in groups], left
 
 
 def in_a_shell(face, shells):

@@ -56,9 +56,19 @@ def test_a_file_of_faces_is_meshed(tmp_path):
 def test_faces_inside_others_are_a_cavity():
     outer, inner = Part.makeBox(10, 10, 10), Part.makeSphere(3, Vector(5, 5, 5))
     beside = Part.makeBox(2, 2, 2, Vector(20, 0, 0))
-    sewn = with_solids(loose(Part.Compound([inner, outer, beside])), [])
-    assert len(sewn.Solids) == 2
-    assert volume_of(sewn) == pytest.approx(1008 - 36 * math.pi, rel=5e-3)
+    shapes = [inner, outer, beside]
+    for faces in (loose(Part.Compound(shapes)), Part.Compound([loose(shape) for shape in shapes])):
+        sewn = with_solids(faces, [])
+        assert len(sewn.Solids) == 2
+        assert volume_of(sewn) == pytest.approx(1008 - 36 * math.pi, rel=5e-3)
+
+
+def test_faces_of_solids_that_touch_are_sewn_group_by_group():
+    boxes = [Part.makeBox(10, 10, 10, Vector(x, 0, 0)) for x in (0, 10, 20)]
+    half = [Part.Compound(loose(boxes[2]).Faces[:3]), Part.Compound(loose(boxes[2]).Faces[3:])]
+    sewn = with_solids(Part.Compound([loose(boxes[0]), loose(boxes[1]), Part.Compound(half)]), [])
+    assert [solid.Volume for solid in sewn.Solids] == pytest.approx([1000] * 3)
+    assert volume_of(sewn) == pytest.approx(3000)
 
 
 def test_faces_that_do_not_close_stay_faces():
