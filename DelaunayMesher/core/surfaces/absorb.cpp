@@ -18,6 +18,7 @@ constexpr double kWidest = 2.5;         // extent of the points that become one,
 constexpr double kTurned = 0.3;         // cosine between a triangle's normals before and after
 constexpr double kFlat = 0.001;         // height of a triangle that has become flat, over the tolerance
 constexpr int kMostFlips = 8;           // per triangle that would turn over
+constexpr double kFollow = 0.25;        // distance of a point that is taken along, over the tolerance
 constexpr double kAcute = 0.5;          // angle between faces that may come to meet, radians
 constexpr double kNarrowed = 0.7;       // that of faces that met before, over what it was
 constexpr double kInnocent = 0.2;       // width of what has no part in a fault, over the widest that has
@@ -74,7 +75,7 @@ class Absorber {
       check_normals();
       check_edges();
       if (faults_.empty() && refused_.empty()) check_crossings();
-    } while (reject());
+    } while (more_follow() || reject());
     Plc result = make_plc();
     try {
       check_plc(result);
@@ -88,8 +89,8 @@ class Absorber {
  private:
   // The point that stays of those that become one: a CAD vertex, else that on the first edge.
   void rank_points() {
-    const Index last = plc_.edge_count + plc_.vertex_count;
-    rank_.assign(plc_.points.size(), last);
+    inside_ = plc_.edge_count + plc_.vertex_count;
+    rank_.assign(plc_.points.size(), inside_);
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)
       for (const Index p : plc_.segments[s])
         rank_[p] = std::min(rank_[p], plc_.vertex_count + plc_.segment_edge[s]);
@@ -108,6 +109,8 @@ class Absorber {
         if (clusters.join(p, q, kWidest * tolerance_(plc_.points[p]))) continue;
         for (const Index alone : {p, q}) skipped.emplace_back(static_cast<Index>(k), alone);
       }
+    for (const auto& [p, q] : followers_)
+      if (clusters.is_joined(q)) clusters.join(p, q, kWidest * tolerance_(plc_.points[p]));
     for (const auto& [k, p] : skipped)
       if (!clusters.is_joined(p) && (refused_.empty() || refused_.back() != k)) refused_.push_back(k);
     const Index n = static_cast<Index>(plc_.points.size());
@@ -241,7 +244,22 @@ class Absorber {
 
   void check_normals() {
     for (std::size_t t = 0; t < triangles_.size(); ++t)
-      if (moved(t) && is_turned(triangles_[t], before_[t])) blame({t});
+      if (moved(t) && is_turned(triangles_[t], before_[t]) && !takes_along(t)) blame({t});
+  }
+
+  // A point of the tessellation inside a face that is so near to joined points that a triangle has turned
+  // over joins them, too.  False if it has been tried before, or there is none.
+  bool takes_along(std::size_t t) {
+    for (const Index p : triangles_[t]) {
+      if (joined_[p] || rank_[p] < inside_ || followers_.contains(p)) continue;
+      const double reach = kFollow * tolerance_(plc_.points[p]);
+      for (const Index q : triangles_[t])
+        if (joined_[q] && distance(plc_.points[p], plc_.points[q]) < reach) {
+          followers_[p] = q;
+          return true;
+        }
+    }
+    return false;
   }
 
   struct Side {
@@ -310,6 +328,14 @@ class Absorber {
       if (std::binary_search(before.begin(), before.end(), pair)) continue;
       blame({static_cast<std::size_t>(s), static_cast<std::size_t>(t)});
     }
+  }
+
+  // Before anything is rejected.
+  bool more_follow() {
+    if (followers_.size() == followed_) return false;
+    followed_ = followers_.size();
+    refused_.clear();
+    return true;
   }
 
   // Features with a part in a fault stay, but for those far narrower than others of it: they hardly move
@@ -413,9 +439,12 @@ class Absorber {
   std::vector<SmallFeature> features_;
   std::vector<double> width_;               // by feature
   std::vector<char> active_;                // by feature
+  Index inside_ = 0;                        // rank of the points inside faces
   std::vector<Index> rank_;                 // by point
   std::vector<Index> to_;                   // by point: the one that it becomes
   std::vector<char> joined_;                // by point: it has become, or others have become it
+  std::map<Index, Index> followers_;        // points inside faces, and the point that each joins
+  std::size_t followed_ = 0;                // as many of them when it was last tried
   std::vector<std::vector<Index>> faults_;  // of each the points that stay, and may not all be joined so
   std::vector<Index> refused_;              // features
   std::vector<Triangle> triangles_;

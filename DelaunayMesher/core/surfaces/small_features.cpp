@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "surfaces/plc_editor.h"
 #include "surfaces/tips.h"
@@ -272,14 +273,23 @@ class Finder {
         const auto [a, b] = editor_.side(t, i);
         const Index p = editor_.apex(t, {a, b});
         if (p < 0 || segment(a, b) < 0 || on_curve(p) || !lies_in(tip, p)) continue;
-        const bool a_first = distance(at(a), at(p)) < distance(at(b), at(p));
         const std::vector<Index> fan = editor_.triangles_round(p);
-        if (!editor_.collapse(p, a_first ? a : b) && !editor_.collapse(p, a_first ? b : a)) continue;
+        if (!drop(p, fan)) continue;
         --steps_;
         stack.insert(stack.end(), fan.begin(), fan.end());
         break;
       }
     }
+  }
+  // Onto a neighbour, one on a curve if that is possible, the nearest first.
+  bool drop(Index p, const std::vector<Index>& fan) {
+    std::vector<std::tuple<bool, double, Index>> around;
+    for (const Index t : fan)
+      for (const Index q : plc_.triangles[t])
+        if (q != p) around.emplace_back(!on_curve(q), distance(at(q), at(p)), q);
+    std::sort(around.begin(), around.end());
+    return std::any_of(around.begin(), around.end(),
+                       [&](const auto& to) { return editor_.collapse(p, std::get<Index>(to)); });
   }
   bool lies_in(const Tip& tip, Index p) const {
     const double limit = tolerance_(at(p));

@@ -164,6 +164,30 @@ Shape tangent_arc(double radius) {
   return arc_on_front({0, 0, radius}, {10, 0, radius - std::sqrt(radius * radius - 100)}, 6);
 }
 
+// With a point inside a face, in the plane y = 0 or z = 10, in place of the triangle round it.
+void put_inside(Shape& s, const Vec3& p) {
+  std::vector<Triangle>& triangles = s.plc.triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    const auto part = [&](Index i, Index j) {
+      return dot(area_vector(s.plc.points[i], s.plc.points[j], p),
+                 area_vector(s.plc.points[a], s.plc.points[b], s.plc.points[c]));
+    };
+    const bool in_plane = std::abs(dot(area_vector(s.plc.points[a], s.plc.points[b], s.plc.points[c]),
+                                       p - s.plc.points[a])) < 1e-12;
+    if (!in_plane || part(a, b) <= 0 || part(b, c) <= 0 || part(c, a) <= 0) continue;
+    const Index v = static_cast<Index>(s.plc.points.size());
+    s.plc.points.push_back(p);
+    triangles[t] = {a, b, v};
+    for (const Triangle& more : {Triangle{b, c, v}, Triangle{c, a, v}}) {
+      triangles.push_back(more);
+      s.plc.triangle_face.push_back(s.plc.triangle_face[t]);
+    }
+    return;
+  }
+  FAIL("no triangle there");
+}
+
 struct Result {
   Absorbed absorbed;
   Plc plc;
@@ -279,18 +303,40 @@ TEST_CASE("a tiny edge becomes a point") {
   }
 }
 
-TEST_CASE("a tip of a face that runs out tangentially is cut off") {
-  for (const double radius : {30.0, 50.0, 80.0}) {
-    const Shape shape = tangent_arc(radius);
-    Shape kept = shape;
-    kept.plc.kept_edges = {2};
-    REQUIRE(kept.records.edges[2].kind == CurveKind::circle);
-    const Result cut(shape, 2), whole(kept, 2);
-    CHECK_FALSE(cut.absorbed.any());
-    CHECK(cut.smallest_angle > 2 * whole.smallest_angle);
-    CHECK(cut.mesh.triangles.size() < 1.4 * whole.mesh.triangles.size());
-    CHECK(cut.area == doctest::Approx(600).epsilon(1e-4));
+TEST_CASE("a tiny edge becomes a point though the tessellation has another one beside it") {
+  for (const double gap : {1e-4, 1e-3, 0.01}) {
+    Shape shape = tiny_edge(gap);
+    put_inside(shape, {5 + 0.5 * gap, 0.3 * gap, 10});
+    const Result r(shape, 2);
+    CHECK(r.absorbed.edges.size() == 1);
+    CHECK(r.smallest_angle > 20);
   }
+}
+
+// The tip of tangent_arc() is cut off.
+void check_tip(const Shape& shape) {
+  Shape kept = shape;
+  kept.plc.kept_edges = {2};
+  REQUIRE(kept.records.edges[2].kind == CurveKind::circle);
+  const Result cut(shape, 2), whole(kept, 2);
+  CHECK_FALSE(cut.absorbed.any());
+  CHECK(cut.smallest_angle > 2 * whole.smallest_angle);
+  CHECK(cut.mesh.triangles.size() < 1.4 * whole.mesh.triangles.size());
+  CHECK(cut.area == doctest::Approx(600).epsilon(1e-4));
+}
+
+TEST_CASE("a tip of a face that runs out tangentially is cut off") {
+  for (const double radius : {30.0, 50.0, 80.0}) check_tip(tangent_arc(radius));
+}
+
+TEST_CASE("a tip is cut off also where the tessellation has points in it") {
+  for (const double radius : {30.0, 50.0, 80.0})
+    for (const double share : {0.5, 0.8})
+      for (const double step : {0.3, 0.6, 0.9}) {
+        Shape shape = tangent_arc(radius);
+        for (double x = step; x < 4; x += step) put_inside(shape, {x, 0, share * x * x / (2 * radius)});
+        check_tip(shape);
+      }
 }
 
 TEST_CASE("both tips of a lens are cut off, on one segment") {
