@@ -150,17 +150,23 @@ class Finder {
     }
     const Vec3 place = on_edge(tip, a, b, low);
     if (std::min(distance(place, at(a)), distance(place, at(b))) >= tolerance_(place) &&
-        !is_near_vertex(place, tip))
+        !is_faced(place, tip))
       divide(segment(a, b), place, tip.face);
     return true;
   }
 
-  // Beside a vertex of the other curve, which faces this one as well.
-  bool is_near_vertex(const Vec3& place, const Tip& tip) const {
-    const double reach = kBeside * tolerance_(place);
+  // Beside a vertex of the other curve, or a point of it where the tip is narrow enough: that faces this
+  // curve.
+  bool is_faced(const Vec3& place, const Tip& tip) const {
+    const double reach = tolerance_(place);
     for (const Index t : editor_.triangles_of(tip.face))
-      for (const Index p : plc_.triangles[t])
-        if (distance(at(p), place) < reach && is_vertex(p) && editor_.is_on(p, tip.other_edge)) return true;
+      for (const Index p : plc_.triangles[t]) {
+        const double d = distance(at(p), place);
+        if (d >= kBeside * reach || p == tip.point || !editor_.is_on(p, tip.other_edge)) continue;
+        if (is_vertex(p)) return true;
+        if (d < reach && distance(at(p), geometry_.project_to_edge(tip.edge, at(p))) < kPart * reach)
+          return true;
+      }
     return false;
   }
 

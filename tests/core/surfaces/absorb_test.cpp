@@ -188,6 +188,27 @@ void put_inside(Shape& s, const Vec3& p) {
   FAIL("no triangle there");
 }
 
+// With a point on the segment between two points.
+void divide(Shape& s, const Vec3& from, const Vec3& to, const Vec3& p) {
+  Plc& plc = s.plc;
+  const Index a = s.point(from), b = s.point(to), v = s.point(p);
+  for (std::size_t k = 0, n = plc.segments.size(); k < n; ++k)
+    if (std::minmax(plc.segments[k][0], plc.segments[k][1]) == std::minmax(a, b)) {
+      plc.segments.push_back({v, plc.segments[k][1]});
+      plc.segment_edge.push_back(plc.segment_edge[k]);
+      plc.segments[k][1] = v;
+    }
+  for (std::size_t t = 0, n = plc.triangles.size(); t < n; ++t)
+    for (int i = 0; i < 3; ++i)
+      if (std::minmax(plc.triangles[t][i], plc.triangles[t][(i + 1) % 3]) == std::minmax(a, b)) {
+        Triangle more = plc.triangles[t];
+        more[i] = plc.triangles[t][(i + 1) % 3] = v;
+        plc.triangles.push_back(more);
+        plc.triangle_face.push_back(plc.triangle_face[t]);
+        break;
+      }
+}
+
 struct Result {
   Absorbed absorbed;
   Plc plc;
@@ -337,6 +358,15 @@ TEST_CASE("a tip is cut off also where the tessellation has points in it") {
         for (double x = step; x < 4; x += step) put_inside(shape, {x, 0, share * x * x / (2 * radius)});
         check_tip(shape);
       }
+}
+
+TEST_CASE("a tip is cut off also where the other curve has a point near by") {
+  for (double radius = 46; radius < 53; radius += 0.125) {
+    CAPTURE(radius);
+    Shape shape = tangent_arc(radius);
+    put_inside(shape, {6, 1, 0});
+    check_tip(shape);
+  }
 }
 
 TEST_CASE("both tips of a lens are cut off, on one segment") {
