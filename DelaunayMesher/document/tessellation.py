@@ -54,8 +54,8 @@ def tessellate(cad, linear, angular):
     lines = edge_lines(cad, narrow, linear)
     facets = face_facets(cad, narrow, lines, linear, angular)
     mesh = gathered(cad, lines, facets)
-    doubtful = creased_faces(mesh, (SMALL * linear) ** 2) + empty_faces(mesh)
-    better = {face: covering(mesh, face, lines, facets[face]) for face in doubtful}
+    creased = creased_faces(mesh, (SMALL * linear) ** 2)
+    better = {face: covering(mesh, face, lines, facets[face]) for face in creased}
     if any(better.values()):
         mesh = gathered(cad, lines, [better.get(face) or old for face, old in enumerate(facets)])
     return without_laps(mesh)
@@ -67,13 +67,6 @@ def covering(mesh, face, lines, facets):
     mine = [lines[edge] for edge in cad.face_edges[face]]
     crossing = laps_itself(mesh.points, mesh.triangles[mesh.triangle_face == face])
     return covering_facets(cad.faces[face], cad.surfaces[face], mine, facets, crossing)
-
-
-def empty_faces(mesh):
-    """Numbers, ascending, of the curved faces that OCC has left without triangles."""
-    counts = np.bincount(mesh.triangle_face, minlength=len(mesh.cad.faces))
-    empty = np.flatnonzero(counts == 0).tolist()
-    return [face for face in empty if not isinstance(mesh.cad.surfaces[face], Part.Plane)]
 
 
 def creased_faces(mesh, small):
