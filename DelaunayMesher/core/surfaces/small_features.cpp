@@ -18,6 +18,7 @@ constexpr double kBulging = 6;   // ... between two curves that are nearer to ea
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
 constexpr double kBeside = 2;    // tolerances from a vertex of the other curve, which faces this one as well
+constexpr double kBent = 0.2;    // ... over the radius of its curves: more would change a hole's size
 constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 constexpr int kBisections = 20;
@@ -31,7 +32,8 @@ class Finder {
         tolerance_(tolerance),
         editor_(plc),
         kept_face_(plc.face_solids.size(), 0),
-        kept_edge_(plc.edge_count, 0) {
+        kept_edge_(plc.edge_count, 0),
+        bounds_(plc.edge_count, 1) {
     for (const Index f : plc.kept_faces) kept_face_[f] = 1;
     for (const Index e : plc.kept_edges) kept_edge_[e] = 1;
     if (!plc.kept_faces.empty()) keep_outlines();
@@ -99,7 +101,21 @@ class Finder {
     if (!on_curve(a) || !on_curve(b) || !(distance(at(a), at(b)) < tolerance_(at(a)))) return false;
     if (on_kept_curve(a) || on_kept_curve(b)) return false;
     const Index s = segment(a, b);
-    return s >= 0 ? tiny_edge(plc_.segment_edge[s]) : !editor_.share_edge(a, b);
+    if (s >= 0) return tiny_edge(plc_.segment_edge[s]);
+    return !editor_.share_edge(a, b) && distance(at(a), at(b)) < std::max(bent_at(a), bent_at(b));
+  }
+
+  // Width of a strip that may be absorbed at a point, by the curve through it that is bent least; those at
+  // its ends do not count.
+  double bent_at(Index p) const {
+    double most = 0;
+    for (const Index e : editor_.edges_of(p))
+      if (bounds_[e] && !tiny_edge(e)) most = std::max(most, bent_width(e, at(p)));
+    return most;
+  }
+  double bent_width(Index edge, const Vec3& place) const {
+    const double curvature = geometry_.edge_curvature(edge, place);
+    return curvature > 0 ? kBent / curvature : HUGE_VAL;
   }
 
   // Where the segment (a, b), a side of a triangle, passes its third corner p; nothing unless p is near, on
@@ -117,6 +133,7 @@ class Finder {
     place = geometry_.project_to_edge(edge, at(a) + t * along);
     const double w = distance(place, at(p));
     if (!(w < limit) || std::min(distance(at(a), place), distance(at(b), place)) < 0.1 * w) return false;
+    if (!(w < std::max(bent_at(p), bent_width(edge, place)))) return false;
     // A vertex within reach is faced rather than a place beside it, but for that at the tip of the strip: it
     // is on the same curve as p.  The corner of a face is no strip.
     for (const Index end : {a, b}) {
@@ -229,7 +246,11 @@ class Finder {
     sharp_.clear();
     for (const Tip& tip : tips_)
       if (tip.face == face) sharp_.insert(tip.point);
-    return editor_.load(face);
+    if (!editor_.load(face)) return false;
+    bounds_.assign(plc_.edge_count, 0);
+    for (const auto& [ends, t] : editor_.sides())
+      if (const Index s = segment(ends[0], ends[1]); s >= 0) bounds_[plc_.segment_edge[s]] = 1;
+    return true;
   }
 
   void search_face(Index face) {
@@ -447,6 +468,7 @@ class Finder {
   const Tolerance& tolerance_;
   PlcEditor editor_;
   std::vector<char> kept_face_, kept_edge_;
+  std::vector<char> bounds_;    // by edge: it bounds the face at hand
   std::vector<double> length_;  // by edge, as its ends
   std::vector<std::vector<Index>> ends_;
   std::vector<Tip> tips_;

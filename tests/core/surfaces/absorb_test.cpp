@@ -313,6 +313,11 @@ TEST_CASE("a narrow ring with points closer together than the tolerance") {
   CHECK(r.smallest_angle > 20);
 }
 
+TEST_CASE("a ring as wide as a fifth of its radius stays") {
+  CHECK(Result(chamfered_cylinder(10, 60, 0.5, 24), 120).absorbed.faces == std::vector<Index>{1});
+  CHECK_FALSE(Result(chamfered_cylinder(10, 60, 1.6, 24), 120).absorbed.any());
+}
+
 TEST_CASE("a tiny edge becomes a point") {
   for (const double gap : {1e-6, 1e-3, 0.02}) {
     const Result r(tiny_edge(gap), 2);
