@@ -130,7 +130,7 @@ def mesh_source(source, arguments, bar):
     if bar:
         bar.clear()
     if not arguments.quiet:
-        print(summary(mesh, arguments.output))
+        say(summary(mesh, arguments.output), sys.stdout)
         for warning in mesh.warnings:
             complain("warning: " + warning)
     return EXIT_BELOW_TARGET if mesh.status == "usable" else EXIT_OK, mesh.report()
@@ -164,7 +164,15 @@ def summary(mesh, output):
 
 
 def complain(text):
-    print("DelaunayMesher: " + text, file=sys.stderr)
+    say("DelaunayMesher: " + text, sys.stderr)
+
+
+def say(text, stream):
+    """Print it, unless nobody reads any more (... | head): that is no reason to stop."""
+    try:
+        print(text, file=stream, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 if __name__ == "__main__":

@@ -39,6 +39,21 @@ def test_every_flag_of_the_contract():
     assert {option.flag for option in OPTIONS} <= known
 
 
+def test_a_reader_that_stops_early_stops_nothing(part, tmp_path):
+    command = [sys.executable, "-m", "DelaunayMesher", part, "-o", tmp_path / "a.vtu"]
+    with subprocess.Popen(
+        [*map(str, command), "--report", str(tmp_path / "a.json")],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        process.stdout.close()
+        assert process.stderr.read() == ""
+    assert process.returncode == 0
+    assert json.loads((tmp_path / "a.json").read_text())["status"] == "ok"
+
+
 def test_mesh_and_report(part, tmp_path):
     meshio = pytest.importorskip("meshio")
     done = run(
