@@ -2,11 +2,12 @@
 // to become one to absorb each.
 //
 // A face is narrow where a point of one of its curves has another one at less than the tolerance across the
-// face.  Where the other curve has no point there, its segment is divided, on the exact curve; flips then
-// make every triangle there have a side across, also where the segments bulge further than the face is wide.
-// These sides, and tiny edges, are the pairs of points.
+// face, and at less than a fifth of the radius of one of them: the step in a hole is no detail of it.  Where
+// the other curve has no point there, its segment is divided, on the exact curve; flips then make every
+// triangle there have a side across, also where the segments bulge further than the face is wide.  These
+// sides, and tiny edges, are the pairs of points.
 // Where two curves run together in a sharp tip, one of them is divided at the width that may just be
-// absorbed. Connected ones belong together: a strip is absorbed at both of its ends or not at all. Cost:
+// absorbed.  Connected ones belong together: a strip is absorbed at both of its ends or not at all.  Cost:
 // linear, and logarithmic in the size of faces with narrow places.
 #pragma once
 
