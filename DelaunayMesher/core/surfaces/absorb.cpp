@@ -18,7 +18,7 @@ constexpr double kWidest = 2.5;         // extent of the points that become one,
 constexpr double kTurned = 0.3;         // cosine between a triangle's normals before and after
 constexpr double kFlat = 0.001;         // height of a triangle that has become flat, over the tolerance
 constexpr int kMostFlips = 8;           // per triangle that would turn over
-constexpr double kFollow = 0.25;        // distance of a point that is taken along, over the tolerance
+constexpr double kFollow = 0.05;        // distance of a point that is taken along, over the tolerance
 constexpr double kAcute = 0.5;          // angle between faces that may come to meet, radians
 constexpr double kNarrowed = 0.7;       // that of faces that met before, over what it was
 constexpr double kInnocent = 0.2;       // width of what has no part in a fault, over the widest that has
@@ -87,15 +87,23 @@ class Absorber {
   }
 
  private:
-  // The point that stays of those that become one: a CAD vertex, else that on the first edge.
+  // The point that stays of those that become one: a CAD vertex, else that on the first edge.  And beside_.
   void rank_points() {
-    inside_ = plc_.edge_count + plc_.vertex_count;
-    rank_.assign(plc_.points.size(), inside_);
+    const Index inside = plc_.edge_count + plc_.vertex_count;
+    rank_.assign(plc_.points.size(), inside);
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)
       for (const Index p : plc_.segments[s])
         rank_[p] = std::min(rank_[p], plc_.vertex_count + plc_.segment_edge[s]);
     for (std::size_t c = 0; c < plc_.corners.size(); ++c)
       rank_[plc_.corners[c]] = std::min(rank_[plc_.corners[c]], plc_.corner_vertex[c]);
+    beside_.assign(plc_.points.size(), -1);
+    for (const auto& [a, b, c] : plc_.triangles)
+      for (const auto& [p, q] : {Segment{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}})
+        if (rank_[p] == inside && rank_[q] < inside && (beside_[p] < 0 || is_nearer(p, q, beside_[p])))
+          beside_[p] = q;
+  }
+  bool is_nearer(Index p, Index q, Index other) const {
+    return distance(plc_.points[p], plc_.points[q]) < distance(plc_.points[p], plc_.points[other]);
   }
 
   // In rows of points closer to each other than the tolerance those come together that are next to each
@@ -247,17 +255,15 @@ class Absorber {
       if (moved(t) && is_turned(triangles_[t], before_[t]) && !takes_along(t)) blame({t});
   }
 
-  // A point of the tessellation inside a face that is so near to joined points that a triangle has turned
-  // over joins them, too.  False if it has been tried before, or there is none.
+  // A point of the tessellation inside a face beside one of a curve that was joined, so near that a triangle
+  // has turned over, joins, too.  False if it has been tried before, or there is none.
   bool takes_along(std::size_t t) {
     for (const Index p : triangles_[t]) {
-      if (joined_[p] || rank_[p] < inside_ || followers_.contains(p)) continue;
-      const double reach = kFollow * tolerance_(plc_.points[p]);
-      for (const Index q : triangles_[t])
-        if (joined_[q] && distance(plc_.points[p], plc_.points[q]) < reach) {
-          followers_[p] = q;
-          return true;
-        }
+      const Index q = beside_[p];
+      if (q < 0 || joined_[p] || !joined_[q] || followers_.contains(p)) continue;
+      if (distance(plc_.points[p], plc_.points[q]) > kFollow * tolerance_(plc_.points[p])) continue;
+      followers_[p] = q;
+      return true;
     }
     return false;
   }
@@ -439,8 +445,8 @@ class Absorber {
   std::vector<SmallFeature> features_;
   std::vector<double> width_;               // by feature
   std::vector<char> active_;                // by feature
-  Index inside_ = 0;                        // rank of the points inside faces
   std::vector<Index> rank_;                 // by point
+  std::vector<Index> beside_;               // by point inside a face: the nearest beside it on a curve, or -1
   std::vector<Index> to_;                   // by point: the one that it becomes
   std::vector<char> joined_;                // by point: it has become, or others have become it
   std::map<Index, Index> followers_;        // points inside faces, and the point that each joins
