@@ -299,7 +299,7 @@ class Finder {
       for (int i = 0; i < 3; ++i) {
         const auto [a, b] = editor_.side(t, i);
         const Index p = editor_.apex(t, {a, b});
-        if (p < 0 || segment(a, b) < 0 || on_curve(p) || !lies_in(tip, p)) continue;
+        if (p < 0 || !on_curve(a) || !on_curve(b) || on_curve(p) || !lies_in(tip, p)) continue;
         const std::vector<Index> fan = editor_.triangles_round(p);
         if (!drop(p, fan)) continue;
         --steps_;

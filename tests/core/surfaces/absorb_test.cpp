@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <random>
 #include <string>
 
 #include "shapes.h"
@@ -188,27 +189,6 @@ void put_inside(Shape& s, const Vec3& p) {
   FAIL("no triangle there");
 }
 
-// With a point on the segment between two points.
-void divide(Shape& s, const Vec3& from, const Vec3& to, const Vec3& p) {
-  Plc& plc = s.plc;
-  const Index a = s.point(from), b = s.point(to), v = s.point(p);
-  for (std::size_t k = 0, n = plc.segments.size(); k < n; ++k)
-    if (std::minmax(plc.segments[k][0], plc.segments[k][1]) == std::minmax(a, b)) {
-      plc.segments.push_back({v, plc.segments[k][1]});
-      plc.segment_edge.push_back(plc.segment_edge[k]);
-      plc.segments[k][1] = v;
-    }
-  for (std::size_t t = 0, n = plc.triangles.size(); t < n; ++t)
-    for (int i = 0; i < 3; ++i)
-      if (std::minmax(plc.triangles[t][i], plc.triangles[t][(i + 1) % 3]) == std::minmax(a, b)) {
-        Triangle more = plc.triangles[t];
-        more[i] = plc.triangles[t][(i + 1) % 3] = v;
-        plc.triangles.push_back(more);
-        plc.triangle_face.push_back(plc.triangle_face[t]);
-        break;
-      }
-}
-
 struct Result {
   Absorbed absorbed;
   Plc plc;
@@ -370,6 +350,22 @@ TEST_CASE("a tip is cut off also where the other curve has a point near by") {
     CAPTURE(radius);
     Shape shape = tangent_arc(radius);
     put_inside(shape, {6, 1, 0});
+    check_tip(shape);
+  }
+}
+
+TEST_CASE("a tip is cut off also where triangles between points of the curves have such points, too") {
+  for (const unsigned seed : {5u, 12u, 27u}) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0, 1);
+    const double radius = 30 + 50 * share(random);
+    Shape shape = tangent_arc(radius);
+    const int count = 3 + static_cast<int>(8 * share(random));
+    for (int k = 0; k < count; ++k) {
+      const double x = 0.3 + 5 * share(random), height = 0.3 + 0.5 * share(random);
+      put_inside(shape, {x, 0, height * x * x / (2 * radius)});
+    }
     check_tip(shape);
   }
 }
