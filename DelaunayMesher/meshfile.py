@@ -26,8 +26,9 @@ def write_by_freecad(path, mesh):
     document.fem_mesh(mesh).write(path)
 
 
-# meshio's .med files have the nodes in VTK's order and no groups, and FreeCAD finds no nodes in them.
-OWN_WRITERS = {VTU_ENDING: write_vtu, ".inp": write_inp, ".med": write_by_freecad, ".unv": write_by_freecad}
+# All else is meshio's; in its .med files the nodes have VTK's order, there are no groups, and FreeCAD finds
+# no nodes.
+WRITERS = {VTU_ENDING: write_vtu, ".inp": write_inp, ".med": write_by_freecad, ".unv": write_by_freecad}
 
 
 def check_output(path):
@@ -49,7 +50,7 @@ def check_output(path):
         raise _unwritable(
             "%s: cannot write %r files, only %s" % (path, ending_of(path), known), "unknown_format"
         )
-    elif ending_of(path) not in OWN_WRITERS:
+    elif ending_of(path) not in WRITERS:
         import_meshio()
 
 
@@ -79,14 +80,14 @@ def write_mesh(path, mesh):
     if ending == FREECAD_ENDING:
         from . import document
 
-        document.write_fcstd(str(path), mesh, mesh.shape, mesh.options, mesh.aliases)
+        document.write_fcstd(str(path), mesh, mesh.shape, mesh.options)
         return
     folder = os.path.dirname(os.path.abspath(str(path)))
     try:
         with tempfile.TemporaryDirectory(dir=folder, prefix=".mesh-") as workshop:
             target = os.path.join(workshop, os.path.basename(str(path)))
-            if ending in OWN_WRITERS:
-                OWN_WRITERS[ending](target, mesh)
+            if ending in WRITERS:
+                WRITERS[ending](target, mesh)
             else:
                 write_with_meshio(target, to_meshio(mesh))
             for name in os.listdir(workshop):  # some formats take several files

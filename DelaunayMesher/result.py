@@ -73,12 +73,11 @@ class Mesh:
             return np.unique(self.tets[self.tet_solid == number])
         return np.flatnonzero((self.point_dimension == 0) & (self.point_entity == number - 1))
 
-    def element_rows(self, aliases=None):
+    def element_rows(self):
         """{'Edge1': ('Edge', rows (n,) of lines), 'Face3': ('Face', of triangles), 'Solid1': ('Volume', of
         tets), ...} of all CAD elements that have mesh elements.
 
-        aliases: touching.Aliases, default the mesh's own; CAD elements that were merged into others have the
-        rows of those.
+        Those that were merged into others (touching.Aliases) have the rows of these.
         """
         found = {}
         for prefix, kind, owner, offset in (
@@ -92,7 +91,7 @@ class Mesh:
                 if index + offset > 0:
                     found["%s%d" % (prefix, index + offset)] = (kind, rows)
         for prefix, table in (("Face", "faces"), ("Edge", "edges")):
-            for dropped, kept in getattr(aliases or self.aliases, table, {}).items():
+            for dropped, kept in getattr(self.aliases, table, {}).items():
                 source = found.get("%s%d" % (prefix, kept + 1))
                 if source:
                     found["%s%d" % (prefix, dropped + 1)] = source

@@ -7,7 +7,7 @@ from ..errors import InputError
 from .find_freecad import find_freecad
 
 
-def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
+def write_fcstd(path, mesh, shape=None, options=None):
     """Write an .FCStd with the part (when there is one) and the filled FEM mesh object.
 
     The file appears only when it is complete.  Raises InputError when it cannot be written.
@@ -19,7 +19,7 @@ def write_fcstd(path, mesh, shape=None, options=None, aliases=None):
     from .femmesh import fill, put
     from .mesh_object import add_mesh, describe, store_options
 
-    filling = fill(mesh, aliases=aliases)
+    filling = fill(mesh)
     document = FreeCAD.newDocument("Mesh", hidden=True, temp=True)
     try:
         if shape is not None:

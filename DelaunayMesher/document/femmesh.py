@@ -22,13 +22,13 @@ AS_ARGUMENTS = {"Node": 3, "Edge": 2, "Face": 3, "Volume": 4}
 TETRAHEDRON = {4: [1, 0, 2, 3], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 
 
-def fem_mesh(mesh, groups=(), aliases=None):
+def fem_mesh(mesh, groups=()):
     """Fem.FemMesh of a Mesh, complete.
 
-    groups: (name, names of CAD elements) pairs, such as ("Press", ["Face1", "Face4"]).  aliases:
-    touching.Aliases; CAD elements that were merged into others have groups as well.
+    groups: (name, names of CAD elements) pairs, such as ("Press", ["Face1", "Face4"]).  CAD elements that
+    were merged into others have groups as well.
     """
-    filling = fill(mesh, groups, aliases)
+    filling = fill(mesh, groups)
     for _ in add_groups(filling.elements, filling.groups):
         pass
     return filling.elements
@@ -42,10 +42,10 @@ class Filling:
     groups: List[Tuple[str, str, np.ndarray]]
 
 
-def fill(mesh, groups=(), aliases=None):
-    """The Filling of a Mesh, in any thread; groups and aliases as in fem_mesh."""
+def fill(mesh, groups=()):
+    """The Filling of a Mesh, in any thread; groups as in fem_mesh."""
     elements, members = all_elements(mesh)
-    return Filling(elements, all_groups(mesh, members, groups, aliases))
+    return Filling(elements, all_groups(mesh, members, groups))
 
 
 def put(target, filling):
@@ -102,9 +102,9 @@ def add_groups(target, groups):
             yield
 
 
-def all_groups(mesh, members, groups, aliases):
+def all_groups(mesh, members, groups):
     """(name, kind, numbers (n,)) of the groups of all CAD elements and of the `groups` asked for."""
-    rows = mesh.element_rows(aliases)
+    rows = mesh.element_rows()
     collected = {name: (kind, members[kind][own]) for name, (kind, own) in rows.items()}
     result = [(name, kind, numbers) for name, (kind, numbers) in collected.items()]
     for name, names in groups:

@@ -220,7 +220,7 @@ def test_touching_solids_have_groups_on_both_sides():
     first = Part.makeBox(10, 10, 10)
     second = Part.makeBox(10, 10, 10, FreeCAD.Vector(10, 0, 0))
     mesh = document.mesh_shape(Part.makeCompound([first, second]), document.make_options(max_size=4.0))
-    filled = document.fem_mesh(mesh, aliases=mesh.aliases)
+    filled = document.fem_mesh(mesh)
     names = {filled.getGroupName(number) for number in filled.Groups}
     assert names >= {"Face%d" % number for number in range(1, 13)} | {"Solid1", "Solid2"}
     assert {"Edge%d" % number for number in range(1, 25)} <= names

@@ -239,7 +239,7 @@ def test_write_fcstd(box, tmp_path):
     options = document.make_options(max_size=4.0, order=2, sizes={"Face2": 2.0}, regions=[ball])
     mesh = document.mesh_shape(shape, options)
     path = tmp_path / "out.FCStd"
-    document.write_fcstd(str(path), mesh, shape, mesh.options, mesh.aliases)
+    document.write_fcstd(str(path), mesh, shape, mesh.options)
     assert [item.name for item in tmp_path.iterdir()] == ["out.FCStd"]
     again = FreeCAD.openDocument(str(path))
     try:

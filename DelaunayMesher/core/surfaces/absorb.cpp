@@ -66,7 +66,10 @@ class Absorber {
     active_.assign(features_.size(), 1);
     for (const SmallFeature& feature : features_) width_.push_back(width_of(feature, plc_.points));
     rank_points();
+    find_beside();
+    std::size_t followed = 0;
     do {
+      followed = followers_.size();
       if (std::find(active_.begin(), active_.end(), 1) == active_.end()) return given_;
       join_points();
       make_triangles();
@@ -75,7 +78,7 @@ class Absorber {
       check_normals();
       check_edges();
       if (faults_.empty() && refused_.empty()) check_crossings();
-    } while (more_follow() || reject());
+    } while (followers_.size() > followed || reject());  // nothing is rejected before more have followed
     Plc result = make_plc();
     try {
       check_plc(result);
@@ -87,20 +90,22 @@ class Absorber {
   }
 
  private:
-  // The point that stays of those that become one: a CAD vertex, else that on the first edge.  And beside_.
+  // The point that stays of those that become one: a CAD vertex, else that on the first edge.
   void rank_points() {
-    const Index inside = plc_.edge_count + plc_.vertex_count;
-    rank_.assign(plc_.points.size(), inside);
+    rank_.assign(plc_.points.size(), plc_.edge_count + plc_.vertex_count);
     for (std::size_t s = 0; s < plc_.segments.size(); ++s)
       for (const Index p : plc_.segments[s])
         rank_[p] = std::min(rank_[p], plc_.vertex_count + plc_.segment_edge[s]);
     for (std::size_t c = 0; c < plc_.corners.size(); ++c)
       rank_[plc_.corners[c]] = std::min(rank_[plc_.corners[c]], plc_.corner_vertex[c]);
+  }
+
+  void find_beside() {
     beside_.assign(plc_.points.size(), -1);
+    const auto inside = [&](Index p) { return rank_[p] == plc_.edge_count + plc_.vertex_count; };
     for (const auto& [a, b, c] : plc_.triangles)
       for (const auto& [p, q] : {Segment{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}})
-        if (rank_[p] == inside && rank_[q] < inside && (beside_[p] < 0 || is_nearer(p, q, beside_[p])))
-          beside_[p] = q;
+        if (inside(p) && !inside(q) && (beside_[p] < 0 || is_nearer(p, q, beside_[p]))) beside_[p] = q;
   }
   bool is_nearer(Index p, Index q, Index other) const {
     return distance(plc_.points[p], plc_.points[q]) < distance(plc_.points[p], plc_.points[other]);
@@ -109,6 +114,7 @@ class Absorber {
   // In rows of points closer to each other than the tolerance those come together that are next to each
   // other; where a point would be left alone by that, all of it stays.
   void join_points() {
+    refused_.clear();
     Clusters clusters(plc_.points);
     std::vector<std::pair<Index, Index>> skipped;  // feature, point
     for (std::size_t k = 0; k < features_.size(); ++k)
@@ -336,20 +342,11 @@ class Absorber {
     }
   }
 
-  // Before anything is rejected.
-  bool more_follow() {
-    if (followers_.size() == followed_) return false;
-    followed_ = followers_.size();
-    refused_.clear();
-    return true;
-  }
-
   // Features with a part in a fault stay, but for those far narrower than others of it: they hardly move
   // anything.  True if there are any.
   bool reject() {
     bool changed = !refused_.empty();
     for (const Index k : refused_) active_[k] = 0;
-    refused_.clear();
     std::vector<double> widest(plc_.points.size(), 0);  // by point that stays: of the features that joined it
     for_active(
         [&](std::size_t, Index point, double width) { widest[point] = std::max(widest[point], width); });
@@ -450,7 +447,6 @@ class Absorber {
   std::vector<Index> to_;                   // by point: the one that it becomes
   std::vector<char> joined_;                // by point: it has become, or others have become it
   std::map<Index, Index> followers_;        // points inside faces, and the point that each joins
-  std::size_t followed_ = 0;                // as many of them when it was last tried
   std::vector<std::vector<Index>> faults_;  // of each the points that stay, and may not all be joined so
   std::vector<Index> refused_;              // features
   std::vector<Triangle> triangles_;
