@@ -10,12 +10,13 @@ constexpr int kSteps = 3;       // of a follow-up
 constexpr int kPasses = 3;      // of smoothing and flips
 constexpr double kBad = 0.5;    // elements worse than this are worked on
 constexpr double kHope = 1;     // progress of a pass relative to the one before, if all goes well
+constexpr int kPatient = 2;     // the effort whose trials are not given up early
 constexpr Index kEarned = 4;    // tries, by each that helped
 struct Effort {
   double angle;        // degrees: elements below it are worth it
   Index tries, share;  // so many are tried, and one more for so many tetrahedra
 };
-constexpr Effort kEfforts[] = {{30, 3000, 16}, {30, 1500, 80}, {28, 1500, 80}};
+constexpr Effort kEfforts[] = {{30, 3000, 16}, {30, 1500, 80}, {28, 1500, 80}, {30, 3000, 40}};
 
 }  // namespace
 
@@ -63,7 +64,7 @@ void Rescuer::settle(Index v) {
       if (!mesh_.removed(t) && mesh_.bad(t) >= kBad && !flipper_.improve(t))
         flipper_.improve_boundary(t, geometry_);
     const double now = badness(mesh_.trial_now()), missing = now - badness(mesh_.trial_before());
-    if (effort_ < kMostEffort && missing > kHope * (kPasses - 1 - pass) * (worst - now)) return;
+    if (effort_ != kPatient && missing > kHope * (kPasses - 1 - pass) * (worst - now)) return;
     worst = now;
   }
 }
@@ -146,18 +147,35 @@ bool Rescuer::insert(Index tet, int first, int last, bool deep) {
   return false;
 }
 
-// What helps most for its time, what helps less, what takes long.
+// One corner, then two together, each in all directions: out of a place that is the best only among those
+// near it.
+bool Rescuer::shift(Index tet) {
+  const Tet c = mesh_.tet(tet);
+  for (int apart = 0; apart < 4; ++apart)
+    for (int i = 0; i < 4; ++i)
+      for (Index k = 0; k < 8; ++k) {
+        const Index v = c[i], w = c[(i + apart) % 4];
+        const auto change = [&] {
+          return smoother_.shift(v, k) && (w == v || smoother_.shift(w, (k + apart) % 8)) ? v : -1;
+        };
+        const Index last_change = std::max(mesh_.last_change(v), mesh_.last_change(w));
+        if (attempt({kShift, v, w, k}, last_change, false, change)) return true;
+      }
+  return false;
+}
+
+// What helps most for its time, what helps less, what takes long, what helps where nothing else has.
 bool Rescuer::rescue(Index tet, int effort) {
   if (is_fixed(tet)) return false;
   for (effort_ = 0; effort_ <= std::min(effort, kMostEffort); ++effort_) {
-    if (tries_left_[effort_] == 0) continue;
-    if (mesh_.bad(tet) < badness_at(kEfforts[effort_].angle)) return false;
+    if (tries_left_[effort_] == 0 || mesh_.bad(tet) < badness_at(kEfforts[effort_].angle)) continue;
     if (effort_ == 0 && (contract(tet, 0, kEdges, false) || insert(tet, 1, 3, false))) return true;
     if (effort_ == 1 && (insert(tet, 0, 1, false) || insert(tet, 3, 5, false) || insert(tet, 7, 11, false)))
       return true;
     if (effort_ == 2 && (insert(tet, 5, 7, false) || contract(tet, kEdges, 6, false) ||
                          contract(tet, 0, 6, true) || insert(tet, 0, Inserter::kPlaces, true)))
       return true;
+    if (effort_ == 3 && shift(tet)) return true;
   }
   return false;
 }

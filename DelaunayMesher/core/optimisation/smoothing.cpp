@@ -126,6 +126,20 @@ bool Smoother::smooth(Index v, bool soft, int steps) {
   return true;
 }
 
+bool Smoother::shift(Index v, int cube_corner) {
+  if (!load(v, false)) return false;
+  const Vec3 direction{cube_corner & 1 ? 1. : -1., cube_corner & 2 ? 1. : -1., cube_corner & 4 ? 1. : -1.};
+  const Vec3 from = place_;
+  for (const double part : {0.3, 0.15, 0.075}) {
+    const Vec3 p = geometry_.project(entity_, from + part * size_ * direction);
+    if (fan_score(fan_, p, false, bad_.data()).extremes.blunt <= -1) continue;
+    if (entity_.dimension < 3 && !keeps_boundary(v, p)) continue;
+    mesh_.move_point(v, p, {tets_.data(), static_cast<std::size_t>(fan_.count)}, bad_);
+    return true;
+  }
+  return false;
+}
+
 Vec3 Smoother::best_apex(const Fan& fan, const Vec3& start, Entity entity, int steps) {
   fan_ = fan;
   entity_ = entity;

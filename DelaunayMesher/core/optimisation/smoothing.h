@@ -5,8 +5,8 @@
 // along the negative gradient, taken by differences since an evaluation is cheap (fan.h), with a line search
 // that doubles or halves.  With p = 2 an interior point first tries the mean of its neighbours.
 // Boundary points are put back on their CAD face or edge.
-// Guard: the objective falls, keeps_angles() (quality.h) holds, boundary triangles keep their side.
-// Cost: about 1 us per vertex and step.
+// Guard, but of shift(): the objective falls, keeps_angles() (quality.h) holds, boundary triangles keep their
+// side. Cost: about 1 us per vertex and step.
 #pragma once
 
 #include "optimisation/edit_mesh.h"
@@ -22,6 +22,10 @@ class Smoother {
   // Both return whether v moved; CAD vertices never do.
   bool smooth_soft(Index v, int steps) { return smooth(v, true, steps); }    // p = 2
   bool smooth_worst(Index v, int steps) { return smooth(v, false, steps); }  // p = 16
+
+  // Puts v elsewhere, about a third of its size in the direction of one of a cube's eight corners, whatever
+  // that does to the angles; less far where a tetrahedron or a boundary triangle would turn over.
+  bool shift(Index v, int cube_corner);
 
   // Where the worst tetrahedra from the fan to a new point are best, after some steps from `start`.
   Vec3 best_apex(const Fan& fan, const Vec3& start, Entity entity, int steps);

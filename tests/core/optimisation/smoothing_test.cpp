@@ -121,6 +121,29 @@ TEST_CASE("smoothing never lowers the worst of a star and keeps points on their 
   check_on_geometry(s.mesh, geometry, 1e-9);
 }
 
+TEST_CASE("a shift keeps every tetrahedron positive and points on their CAD elements") {
+  for (const bool round : {false, true}) {
+    auto s = round ? sample::cylinder(1, 2, 9, 3) : sample::box(4, 0.3, 11);
+    const Geometry geometry(s.plc, s.records);
+    EditMesh edit(s.mesh);
+    Smoother smoother(edit, geometry);
+    std::array<int, 4> shifted{};  // by the dimension of what the point lies on
+    for (Index v = 0; v < edit.vertex_count(); ++v)
+      for (int k = 0; k < 8; ++k) {
+        const Vec3 old = edit.point(v);
+        if (!smoother.shift(v, k)) continue;
+        ++shifted[edit.entity(v).dimension];
+        CHECK(!(edit.point(v) == old));
+        for (Index t : edit.star(v))
+          CHECK(edit.bad(t) == doctest::Approx(badness(edit.cosines(edit.tet(t)))).epsilon(1e-4));
+      }
+    CHECK(shifted[0] == 0);
+    for (int dimension = 1; dimension < 4; ++dimension) CHECK(shifted[dimension] > 0);
+    check_volume_mesh(s.mesh);
+    check_on_geometry(s.mesh, geometry, 1e-9);
+  }
+}
+
 TEST_CASE("boundary points slide on a curved face") {
   auto s = sample::cylinder(1, 2, 9, 3);
   const Geometry geometry(s.plc, s.records);
