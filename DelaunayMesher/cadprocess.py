@@ -25,10 +25,8 @@ def ending_of(path):
 class CadProcess:
     """Stands for a CAD file in pipeline.run() and, once converted, for its document.ShapePlc.
 
-    plcs: the Plc of each group of solids. aliases: None, the shape stays behind.
+    plcs: the Plc of each group of solids.
     """
-
-    aliases = None
 
     def __init__(self, path):
         """Starts reading."""

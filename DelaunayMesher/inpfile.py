@@ -25,8 +25,8 @@ def write_inp(path, mesh):
                 write_set(file, "*ELSET, ELSET=" + name, rows)
             else:
                 write_set(file, "*NSET, NSET=" + name, np.unique(cells[kind][rows]))
-        for point in np.flatnonzero(mesh.point_dimension == 0).tolist():
-            write_set(file, "*NSET, NSET=Vertex%d" % (mesh.point_entity[point] + 1), np.array([point]))
+        for name, point in mesh.vertex_points().items():
+            write_set(file, "*NSET, NSET=" + name, np.array([point]))
 
 
 def write_set(file, head, rows):

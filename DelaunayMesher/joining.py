@@ -16,8 +16,9 @@ def join(results, plcs):
     Points that coincide stay apart.  Mid-side nodes come last, as in any result.
     """
     results = [with_cad_numbers(result, plc) for result, plc in zip(results, plcs)]
+    aliases = joined_aliases(plcs)
     if len(results) == 1:
-        return results[0]
+        return {**results[0], "aliases": aliases}
     joined = {name: np.concatenate([result[name] for result in results]) for name in OWN}
     joined["points"] = np.concatenate([result["points"] for result in results])
     starts = np.cumsum([0] + [len(result["points"]) for result in results])[:-1]
@@ -39,7 +40,16 @@ def join(results, plcs):
     joined["seconds"] = list(totals(result["seconds"] for result in results).items())
     joined["statistics"] = totals(dict(result["statistics"]).items() for result in results)
     joined["warnings"] = merged(text for result in results for text in result["warnings"])
-    return middles_last(joined)
+    return middles_last({**joined, "aliases": aliases})
+
+
+def joined_aliases(plcs):
+    """{'Face': {dropped: kept}, ...} of all PLCs."""
+    joined = {}
+    for plc in plcs:
+        for kind, numbers in plc.aliases.items():
+            joined.setdefault(kind, {}).update(numbers)
+    return joined
 
 
 def totals(tables):

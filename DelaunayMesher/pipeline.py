@@ -51,7 +51,7 @@ def run(source, options=None, report=None, keep=()):
     mesh = mesh_from_core(result, options, notes + warnings)
     mesh.total_seconds = time.perf_counter() - start
     mesh.seconds = _joined(seconds, mesh.seconds)
-    mesh.shape, mesh.aliases = shape, getattr(converted, "aliases", None)
+    mesh.shape = shape
     return mesh
 
 

@@ -17,7 +17,8 @@ class Mesh:
     order with tet_solid (t,); triangles (b, 3 | 6) of boundary and interfaces with triangle_face (b,);
     lines (l, 2 | 3) with line_edge (l,). below_target: elements under the target angle as dicts of tet,
     angle, reason, entity, place. straightened: tetrahedra whose curved boundary edge had to stay straight.
-    seconds: stage -> time, in order.
+    seconds: stage -> time, in order. aliases: 'Face', 'Edge', 'Vertex' -> {number: that of the one at the
+    same place that has its elements}, where solids touch.
     """
 
     points: Any
@@ -37,7 +38,7 @@ class Mesh:
     warnings: List[str] = field(default_factory=list)
     total_seconds: float = 0.0
     shape: Any = None
-    aliases: Any = None
+    aliases: Dict[str, Dict[int, int]] = field(default_factory=dict)
     _quality: Any = None
 
     @property
@@ -65,19 +66,29 @@ class Mesh:
         from .sizing import parse_name
 
         kind, number = parse_name(name)
-        if kind == "Face":
-            return np.unique(self.triangles[self.triangle_face == number - 1])
-        if kind == "Edge":
-            return np.unique(self.lines[self.line_edge == number - 1])
         if kind == "Solid":
             return np.unique(self.tets[self.tet_solid == number])
-        return np.flatnonzero((self.point_dimension == 0) & (self.point_entity == number - 1))
+        index = self.aliases.get(kind, {}).get(number - 1, number - 1)
+        if kind == "Face":
+            return np.unique(self.triangles[self.triangle_face == index])
+        if kind == "Edge":
+            return np.unique(self.lines[self.line_edge == index])
+        return np.flatnonzero((self.point_dimension == 0) & (self.point_entity == index))
+
+    def vertex_points(self):
+        """{'Vertex1': number of its point, ...} of all CAD vertices that have one."""
+        points = np.flatnonzero(self.point_dimension == 0)
+        found = dict(zip(self.point_entity[points].tolist(), points.tolist()))
+        for dropped, kept in self.aliases.get("Vertex", {}).items():
+            if kept in found:
+                found[dropped] = found[kept]
+        return {"Vertex%d" % (index + 1): point for index, point in found.items()}
 
     def element_rows(self):
         """{'Edge1': ('Edge', rows (n,) of lines), 'Face3': ('Face', of triangles), 'Solid1': ('Volume', of
         tets), ...} of all CAD elements that have mesh elements.
 
-        Those that were merged into others (touching.Aliases) have the rows of these.
+        Those that were merged into others (`aliases`) have the rows of these.
         """
         found = {}
         for prefix, kind, owner, offset in (
@@ -90,8 +101,8 @@ class Mesh:
             for index, rows in zip(owners.tolist(), np.split(order, starts[1:])):
                 if index + offset > 0:
                     found["%s%d" % (prefix, index + offset)] = (kind, rows)
-        for prefix, table in (("Face", "faces"), ("Edge", "edges")):
-            for dropped, kept in getattr(self.aliases, table, {}).items():
+        for prefix in ("Face", "Edge"):
+            for dropped, kept in self.aliases.get(prefix, {}).items():
                 source = found.get("%s%d" % (prefix, kept + 1))
                 if source:
                     found["%s%d" % (prefix, dropped + 1)] = source
@@ -147,4 +158,5 @@ def mesh_from_core(result, options, warnings=()):
         seconds=dict(result["seconds"]),
         statistics=dict(result["statistics"]),
         warnings=[*warnings, *result["warnings"]],
+        aliases=result["aliases"],
     )

@@ -90,7 +90,8 @@ def sizes_by_name(sizes, plc):
                 "unknown_name",
                 name,
             )
-        arrays[kind][number - 1] = size
+        row = plc.carrier(kind, number - 1)
+        arrays[kind][row] = min(size, arrays[kind][row])
     if plc.solid_numbers is not None:
         arrays["Solid"] = arrays["Solid"][plc.solid_numbers - 1]
     return {kind.lower() + "_size": array for kind, array in arrays.items()}

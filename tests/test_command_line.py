@@ -170,7 +170,7 @@ def test_interrupt(part, tmp_path):
         "-o",
         str(tmp_path / "a.vtu"),
         "--max-size",
-        "0.08",
+        "0.12",
     ]
     # A shell that runs this in the background has its children ignore the signal.
     process = subprocess.Popen(

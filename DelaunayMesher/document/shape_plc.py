@@ -15,7 +15,6 @@ from ..plc import Plc
 from .edge_geometry import edge_records
 from .face_geometry import SPHERE, TORUS, face_records, seam_is_smooth
 from .touching import (
-    Aliases,
     find_contacts,
     groups_of_solids,
     merge_coincident_segments,
@@ -29,7 +28,7 @@ DEPTH = 1e-3  # of the diagonal: what solids that merely touch may lie in each o
 
 
 class ShapePlc:
-    """The PLCs of a shape, in `plcs`; `aliases`: CAD elements whose triangles another element carries."""
+    """The PLCs of a shape, in `plcs`."""
 
     def __init__(self, mesh, sides, keep, warnings):
         """mesh: a Tessellation that encloses its solids; sides (F, 2); keep: names of elements that stay."""
@@ -38,7 +37,6 @@ class ShapePlc:
         self.contacts = find_contacts(mesh, sides)
         self.geometry = Geometry(mesh, self.kept)
         self.kept_edges = edges_that_stay(mesh, self.kept)
-        self._aliases = {}
         groups = groups_of_solids(mesh.cad, sides, self.contacts)
         groups = [[solid for solid in group if (sides == solid).any()] for group in groups]
         groups = [group for group in groups if group]  # without the solids that were left out
@@ -58,16 +56,6 @@ class ShapePlc:
         """The first PLC: the only one, unless there are solids that share nothing."""
         return self.plcs[0]
 
-    @property
-    def aliases(self):
-        """The Aliases of all PLCs."""
-        result = Aliases()
-        for aliases in self._aliases.values():
-            result.faces.update(aliases.faces)
-            result.edges.update(aliases.edges)
-            result.vertices.update(aliases.vertices)
-        return result
-
     def apart(self, plc):
         """Replace a PLC by one for each of its solids, those that share a face together; [] if it is one."""
         solids = plc.solid_numbers.tolist()
@@ -79,7 +67,6 @@ class ShapePlc:
         numbers = sorted(set(group.values()))
         if len(numbers) == 1:
             return []
-        del self._aliases[solids[0]]
         pieces = [self.plc_of([s for s in solids if group[s] == number]) for number in numbers]
         place = next(index for index, item in enumerate(self.plcs) if item is plc)
         self.plcs[place : place + 1] = pieces
@@ -87,19 +74,18 @@ class ShapePlc:
 
     def plc_of(self, solids):
         """The Plc of some solids (1-based numbers)."""
-        mesh, cad, aliases = self.mesh, self.mesh.cad, Aliases()
-        self._aliases[solids[0]] = aliases
+        mesh, cad = self.mesh, self.mesh.cad
         local = np.zeros(len(cad.solids) + 1, dtype=np.int64)
         local[solids] = np.arange(1, len(solids) + 1)
-        here, sides = merge_equal_faces(self.contacts.equal, local[self.sides], aliases)
+        here, sides, same_faces = merge_equal_faces(self.contacts.equal, local[self.sides])
         mine = (here & sides.any(axis=1))[mesh.triangle_face] & ~self.contacts.folded
         triangles, triangle_face = mesh.triangles[mine], mesh.triangle_face[mine]
         used = np.zeros(len(mesh.points), dtype=bool)
         used[triangles] = True
         compact = np.cumsum(used) - 1
-        segments, segment_edge = self.segments_of(triangles, used, aliases)
-        corners, corner_vertex = corner_points(
-            mesh.vertex_point, self.geometry.corner & used[mesh.vertex_point], aliases
+        segments, segment_edge, same_edges = self.segments_of(triangles, used)
+        corners, corner_vertex, same_vertices = corner_points(
+            mesh.vertex_point, self.geometry.corner & used[mesh.vertex_point]
         )
         return Plc(
             points=mesh.points[used],
@@ -116,17 +102,18 @@ class ShapePlc:
             geometry=self.geometry.of(triangle_face, segment_edge),
             solid_numbers=np.array(solids),
             cad_solid_count=len(cad.solids),
-            kept_faces=[number for number in self.kept["Face"] if number < len(cad.faces)],
-            kept_edges=self.kept_edges,
+            kept_faces=[same_faces.get(n, n) for n in self.kept["Face"] if n < len(cad.faces)],
+            kept_edges=[same_edges.get(n, n) for n in self.kept_edges],
+            aliases={"Face": same_faces, "Edge": same_edges, "Vertex": same_vertices},
         )
 
-    def segments_of(self, triangles, used, aliases):
-        """(segments (k, 2), their edges) along triangles, whose points are `used`; see Aliases.edges."""
+    def segments_of(self, triangles, used):
+        """(segments (k, 2), their edges, merged edges) along triangles, whose points are `used`."""
         mesh = self.mesh
         live = ~self.geometry.seam[mesh.segment_edge] & used[mesh.segments].all(axis=1)
         segments, segment_edge = mesh.segments[live], mesh.segment_edge[live]
         live = segments_on_triangles(segments, triangles, len(mesh.points))
-        return merge_coincident_segments(segments[live], segment_edge[live], aliases)
+        return merge_coincident_segments(segments[live], segment_edge[live])
 
 
 class Geometry:
@@ -272,14 +259,13 @@ def wanted_edges(mesh, seam):
     return wanted & ~seam
 
 
-def corner_points(vertex_point, is_corner, aliases):
-    """(corners, corner_vertex): one vertex per point; vertices that coincide become aliases."""
+def corner_points(vertex_point, is_corner):
+    """(corners, corner_vertex, {dropped vertex: kept vertex}): one vertex per point."""
     vertices = np.flatnonzero(is_corner)
     corners, first, inverse = np.unique(vertex_point[vertices], return_index=True, return_inverse=True)
-    for vertex, kept in zip(vertices.tolist(), vertices[first][inverse.reshape(-1)].tolist()):
-        if vertex != kept:
-            aliases.vertices[vertex] = kept
-    return corners, vertices[first]
+    kept = vertices[first]
+    pairs = zip(vertices.tolist(), kept[inverse.reshape(-1)].tolist())
+    return corners, kept, {vertex: other for vertex, other in pairs if vertex != other}
 
 
 def face_names(faces):

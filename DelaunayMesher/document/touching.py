@@ -6,7 +6,7 @@ other becomes its alias.  Faces that overlap otherwise are conflicts: their soli
 Solids that share nothing are meshed apart, so it does no harm when they touch or overlap; it is reported.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import Part
@@ -17,15 +17,6 @@ from ..errors import MeshError, entity_name
 from .cad_elements import ShapeIndex
 
 SAMPLES = 3  # points of a face that must lie on its twin
-
-
-@dataclass
-class Aliases:
-    """CAD elements that were merged into another: {dropped index: kept index}, 0-based."""
-
-    faces: dict = field(default_factory=dict)
-    edges: dict = field(default_factory=dict)
-    vertices: dict = field(default_factory=dict)
 
 
 @dataclass
@@ -130,18 +121,18 @@ def lies_on(cad, face, other, places):
     return True
 
 
-def merge_equal_faces(equal, sides, aliases):
-    """(faces to keep (F,) bool, sides) with the second of each equal pair given up; fills `aliases.faces`."""
-    sides = sides.copy()
+def merge_equal_faces(equal, sides):
+    """(faces to keep (F,) bool, sides, {dropped face: kept face}): the second of an equal pair goes."""
+    sides, aliases = sides.copy(), {}
     dropped = np.zeros(len(sides), dtype=bool)
     for first, second, mirrored in equal:
         other = sides[second][::-1] if mirrored else sides[second]
         if not sides[first].any() or not other.any() or ((sides[first] != 0) & (other != 0)).any():
             continue
         sides[first], sides[second] = np.where(sides[first] == 0, other, sides[first]), 0
-        aliases.faces[second] = first
+        aliases[int(second)] = int(first)
         dropped[second] = True
-    return ~dropped, sides
+    return ~dropped, sides, aliases
 
 
 def groups_of_solids(cad, sides, contacts):
@@ -237,8 +228,9 @@ def overlap(first, second, place):
     )
 
 
-def merge_coincident_segments(segments, segment_edge, aliases):
-    """Segments without duplicates; fills `aliases.edges` (a later edge on an earlier one)."""
+def merge_coincident_segments(segments, segment_edge):
+    """(segments, their edges, {dropped edge: kept edge}): of several in one place the first edge's stay."""
+    aliases = {}
     ordered = np.sort(segments, axis=1)
     order = np.lexsort((segment_edge, ordered[:, 1], ordered[:, 0]))
     repeated = np.zeros(len(segments), dtype=bool)
@@ -246,8 +238,8 @@ def merge_coincident_segments(segments, segment_edge, aliases):
     repeated[order[same + 1]] = True
     for first, second in zip(segment_edge[order[same]].tolist(), segment_edge[order[same + 1]].tolist()):
         if first != second:
-            aliases.edges[second] = aliases.edges.get(first, first)
-    return segments[~repeated], segment_edge[~repeated]
+            aliases[second] = aliases.get(first, first)
+    return segments[~repeated], segment_edge[~repeated], aliases
 
 
 def segments_on_triangles(segments, triangles, point_count):

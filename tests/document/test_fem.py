@@ -13,7 +13,8 @@ import pytest
 from femtools.ccxtools import FemToolsCcx
 from parts import PARTS, SIZES
 
-from DelaunayMesher import document
+from DelaunayMesher import document, pipeline
+from DelaunayMesher.cadprocess import CadProcess
 from DelaunayMesher.quality import volumes
 
 
@@ -225,6 +226,52 @@ def test_touching_solids_have_groups_on_both_sides():
     assert names >= {"Face%d" % number for number in range(1, 13)} | {"Solid1", "Solid2"}
     assert {"Edge%d" % number for number in range(1, 25)} <= names
     assert volumes(mesh.points, mesh.tets[mesh.tet_solid == 2]).sum() == pytest.approx(1000)
+
+
+def touching_boxes():
+    """(shape, pairs of names of elements at the same place) of two boxes that lie side by side."""
+    shape = Part.makeCompound([Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, FreeCAD.Vector(10, 0, 0))])
+    pairs = []
+    for kind, elements in (("Face", shape.Faces), ("Edge", shape.Edges), ("Vertex", shape.Vertexes)):
+        places = [tuple(round(x, 6) for x in element.CenterOfGravity) for element in elements]
+        pairs += [
+            ("%s%d" % (kind, places.index(place) + 1), "%s%d" % (kind, number + 1))
+            for number, place in enumerate(places)
+            if places.index(place) < number
+        ]
+    return shape, pairs
+
+
+def test_both_names_of_a_merged_element_hold():
+    shape, pairs = touching_boxes()
+    assert sorted(name.rstrip("0123456789") for name, _ in pairs) == ["Edge"] * 4 + ["Face"] + ["Vertex"] * 4
+    coarse = len(document.mesh_shape(shape, {"max_size": 4}).tets)
+    for names in pairs[0], pairs[1], pairs[-1]:
+        meshes = [document.mesh_shape(shape, {"max_size": 4, "sizes": {name: 0.7}}) for name in names]
+        assert len(meshes[0].tets) == len(meshes[1].tets) > 1.5 * coarse
+        for mesh in meshes:
+            first, second = (mesh.nodes_of(name) for name in names)
+            assert len(first) > 0 and first.tolist() == second.tolist()
+    first, second = pairs[0]
+    fine, both = ({"max_size": 4, "sizes": sizes} for sizes in ({first: 0.7}, {first: 0.7, second: 2.0}))
+    assert len(document.mesh_shape(shape, both).tets) == len(document.mesh_shape(shape, fine).tets)
+
+
+def test_files_from_another_process_have_both_names_of_a_merged_element(tmp_path):
+    shape, pairs = touching_boxes()
+    path, written = str(tmp_path / "two.brep"), tmp_path / "two.inp"
+    shape.exportBrep(path)
+    with CadProcess(path) as source:
+        mesh = pipeline.run(source, {"max_size": 4})
+    mesh.write(written)
+    sets = {}
+    for line in written.read_text().splitlines():
+        if line.startswith("*"):
+            rows = sets.setdefault(line.rpartition("=")[2], [])
+        else:
+            rows.append(line)
+    for first, second in pairs:
+        assert sets[first] == sets[second] and sets[first]
 
 
 @both_orders

@@ -257,8 +257,8 @@ def test_touching_solids_of_a_compound_become_one_interface():
     converted = convert(Part.makeCompound([first, second]))
     check_closed(converted.plc)
     assert volumes(converted.plc) == pytest.approx([1000, 1000])
-    assert len(converted.aliases.faces) == 1 and len(converted.aliases.edges) == 4
-    assert len(converted.aliases.vertices) == 4
+    aliases = converted.plc.aliases
+    assert [len(aliases[kind]) for kind in ("Face", "Edge", "Vertex")] == [1, 4, 4]
     assert converted.plc.face_solids.tolist().count([0, 0]) == 1
 
 
@@ -352,7 +352,7 @@ def test_equal_faces_with_other_triangles_become_one_interface(angle):
     converted = convert(Part.makeCompound([outer, inner, sphere, below]), MeshOptions(max_size=2.0))
     if angle == 0.0:
         assert [plc.solid_numbers.tolist() for plc in converted.plcs] == [[1, 2], [3, 4]]
-        assert len(converted.aliases.faces) == 2
+        assert [len(plc.aliases["Face"]) for plc in converted.plcs] == [1, 1]
         expected = [600 * math.pi, 200 * math.pi, 250 / 3 * math.pi, 100 * math.pi]
         assert [volume for plc in converted.plcs for volume in volumes(plc)] == pytest.approx(
             expected, rel=0.02
@@ -364,10 +364,11 @@ def test_equal_faces_with_other_triangles_become_one_interface(angle):
 def test_solids_are_taken_apart_on_demand():
     first, second = Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, Vector(10, 0, 0))
     converted = convert(Part.makeCompound([first, second]))
-    assert len(converted.plcs) == 1 and converted.aliases.faces
+    assert len(converted.plcs) == 1 and converted.plc.aliases["Face"]
     pieces = converted.apart(converted.plcs[0])
-    assert len(pieces) == 2 and converted.plcs == pieces and not converted.aliases.faces
+    assert len(pieces) == 2 and converted.plcs == pieces
     for plc in pieces:
+        assert not plc.aliases["Face"]
         check_closed(plc)
         assert volumes(plc) == pytest.approx([1000])
         assert converted.apart(plc) == []
