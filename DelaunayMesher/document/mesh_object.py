@@ -44,8 +44,12 @@ class MeshDelaunay(Stateless):
         add_properties(target)
 
     def onDocumentRestored(self, target):
-        """Old documents get the properties they lack."""
+        """Old documents get the properties they lack, those made without a window the view."""
         add_properties(target)
+        if FreeCAD.GuiUp:
+            from ..gui import missing_view, view_mesh_object
+
+            missing_view.complete(target, view_mesh_object.VPMeshDelaunay)
 
     def execute(self, target):
         """Recomputing does not mesh: that is run()'s job."""

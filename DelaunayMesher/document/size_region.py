@@ -41,6 +41,13 @@ class SizeRegion(Stateless):
             target.addProperty(kind, name, "Size region", text)
         target.Kind = list(KINDS)
 
+    def onDocumentRestored(self, target):
+        """Documents made without a window get the view they lack."""
+        if FreeCAD.GuiUp:
+            from ..gui import missing_view, view_size_region
+
+            missing_view.complete(target, view_size_region.VPSizeRegion)
+
     def onChanged(self, target, name):
         """Only what the kind needs is shown."""
         if name == "Kind" and hasattr(target, "Radius"):

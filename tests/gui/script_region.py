@@ -1,11 +1,14 @@
 """In FreeCAD's window: a size region round a vertex, its panel, drag and drop, undo, saved and reopened."""
 
 import os
+import zipfile
 
 import drive
 import FreeCAD
 import FreeCADGui
 from drive import say, wait
+
+VIEWS = ["VPMeshDelaunay", "VPSizeRegion"]
 
 
 def make_mesh():
@@ -115,6 +118,31 @@ def reopen(document, names):
     assert target.SizeRegionList == [region]
     assert type(region.ViewObject.Proxy).__name__ == "VPSizeRegion"
     assert abs(region.ViewObject.Proxy.sphere.radius.getValue() - 3.0) < 1e-6
+    FreeCAD.closeDocument(document.Name)
+    return path
+
+
+def open_without_views(path, names):
+    """A document that FreeCADCmd has saved, or the command line, gets the views and the panel."""
+    bare = os.path.join(drive.OUTPUT, "bare.FCStd")
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(bare, "w") as new:
+        for name in old.namelist():
+            if name != "GuiDocument.xml":
+                new.writestr(name, old.read(name))
+    document = FreeCAD.openDocument(bare)
+    wait(0.2)
+    target, region = (document.getObject(name) for name in names)
+    assert [type(item.ViewObject.Proxy).__name__ for item in (target, region)] == VIEWS
+    assert target.ViewObject.Visibility and region.ViewObject.Visibility
+    drive.view_all()
+    drive.picture("without_views")
+    drive.select(target)
+    FreeCADGui.runCommand("DelaunayMesher_MeshSolid")
+    wait(0.2)
+    assert FreeCADGui.ActiveDocument.getInEdit().Object == target and drive.panel().target == target
+    assert drive.panel().reject()
+    wait(0.2)
+    cancel_takes_back(region)
 
 
 def main():
@@ -124,7 +152,8 @@ def main():
     cancel_takes_back(region)
     drag_and_drop(target, region)
     finer(target)
-    reopen(target.Document, (target.Name, region.Name))
+    names = target.Name, region.Name
+    open_without_views(reopen(target.Document, names), names)
 
 
 drive.start(main, "REGION")
