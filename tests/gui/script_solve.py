@@ -103,7 +103,36 @@ def command(target):
     assert panel.target == target and panel.running
     wait_until(lambda: not panel.running)
     assert panel.run_box.status.text() == "Solved"
+    command_in_open_panel(panel)
     assert panel.reject()
+
+
+def command_in_open_panel(panel):
+    """It uses the panel of the mesh when that is open, and starts nothing beside a run."""
+    panel.run_box.button.click()
+    job, before = panel.job, panel.target.RunNumber
+    FreeCADGui.runCommand("DelaunayMesher_Solve")
+    assert panel.job is job
+    wait_until(lambda: not panel.running)
+    assert panel.run_box.status.text() == "Done" and panel.target.RunNumber == before + 1
+    FreeCADGui.runCommand("DelaunayMesher_Solve")
+    assert drive.panel() is panel and panel.running
+    wait_until(lambda: not panel.running)
+    assert panel.run_box.status.text() == "Solved"
+
+
+def command_beside_another_panel(target, analysis):
+    """Nothing is started while somebody else's panel is open; a message says why."""
+    steel = next(item for item in analysis.Group if item.Name == "Steel")
+    FreeCADGui.getDocument(steel.Document.Name).setEdit(steel.Name)
+    wait(0.3)
+    before = target.RunNumber
+    drive.select(target)
+    text = drive.message_of(lambda: FreeCADGui.runCommand("DelaunayMesher_Solve"))
+    assert "Another task panel" in text and target.RunNumber == before
+    assert FreeCADGui.ActiveDocument.getInEdit().Object == steel
+    FreeCADGui.ActiveDocument.resetEdit()
+    wait(0.2)
 
 
 def newest_solver(target, analysis):
@@ -136,6 +165,7 @@ def main():
     cancel(panel)
     results_panel(panel)
     command(panel.target)
+    command_beside_another_panel(panel.target, analysis)
     if drive.version() >= (1, 1):
         newest_solver(panel.target, analysis)
 
