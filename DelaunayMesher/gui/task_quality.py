@@ -19,6 +19,7 @@ from .explain import explain
 from .guards import patience
 from .histogram import Histogram
 from .measures import MEASURES
+from .mesh_watch import MeshWatch
 from .overlay import Overlay
 from .run_box import number
 from .start_mesh import show_error
@@ -57,17 +58,29 @@ class QualityPanel:
 
     def __init__(self, target):
         self.target = target
-        self.mesh = tetrahedra(target.FemMesh)
-        self.report = report_of(target)
-        self.reasons = {item["tet"]: item for item in self.report.get("below_target", ())}
-        self.faces = cad_faces(target.FemMesh)
-        self.table_of_faces = None
+        self.read()
         self.overlay = Overlay(target.Document)
         self.was_visible = target.ViewObject.Visibility
         self.part = getattr(target, "Shape", None)
         self.build()
         self.show_measure()
+        self.watch = MeshWatch(target, self.plot_box, self.read_again, self.reject)
         QualityPanel.current = self
+
+    def read(self):
+        """What is shown of the mesh."""
+        fem_mesh = self.target.FemMesh
+        self.mesh = tetrahedra(fem_mesh)
+        self.report = report_of(self.target)
+        self.reasons = {item["tet"]: item for item in self.report.get("below_target", ())}
+        self.faces = cad_faces(fem_mesh)
+        self.table_of_faces = None
+
+    def read_again(self):
+        """The mesh object has another mesh, after undo for instance."""
+        with patience("quality"):
+            self.read()
+            self.show_measure()
 
     def build(self):
         self.plot_box, self.worst_box, self.cut_box = PlotBox(), WorstBox(), CutBox()
@@ -77,7 +90,6 @@ class QualityPanel:
         self.cut_box.changed = self.show_cut
         self.plot_box.destroyed.connect(self.clean)
         self.plot_box.export.clicked.connect(self.export)
-        self.plot_box.export.setVisible(bool(self.report))
 
     def getStandardButtons(self):
         close = QtGui.QDialogButtonBox.Close
@@ -88,7 +100,7 @@ class QualityPanel:
         return MEASURES[self.plot_box.measure.currentIndex()]
 
     def show_measure(self, *_):
-        """Another measure was chosen."""
+        """Another measure was chosen, or there is another mesh."""
         self.values = self.measure.compute(self.mesh.points, self.mesh.tets)
         target = self.report.get("target_angle") if self.measure is MEASURES[0] else None
         self.plot_box.show(self.values, self.measure, target)
@@ -99,6 +111,7 @@ class QualityPanel:
                 for row in self.rows
             ]
         )
+        self.plot_box.export.setVisible(bool(self.report))
         self.cut_box.set_measure(self.measure, target)
         self.show_cut()
 
@@ -111,10 +124,11 @@ class QualityPanel:
 
     def show_chosen(self):
         """Zoom to the chosen row's element and select the CAD element it lies on."""
-        chosen = self.worst_box.table.currentRow()
-        if not 0 <= chosen < len(self.rows):
+        chosen = self.worst_box.table.selectedItems()
+        if not chosen:
+            self.overlay.show_chosen(None)
             return
-        row = self.rows[chosen]
+        row = self.rows[chosen[0].row()]
         corners = self.mesh.points[self.mesh.tets[row]]
         self.overlay.show_chosen(corners)
         self.overlay.zoom(corners.mean(axis=0), ZOOM * np.ptp(corners, axis=0).max())
@@ -141,7 +155,7 @@ class QualityPanel:
         """(t,) bool of the elements to draw; None when FreeCAD's mesh is to be seen as it is."""
         axis, share = self.cut_box.cut()
         threshold = self.cut_box.threshold()
-        if axis is None and threshold is None:
+        if not len(self.mesh.tets) or (axis is None and threshold is None):
             return None
         kept = np.ones(len(self.mesh.tets), dtype=bool)
         if axis is not None:
@@ -171,6 +185,7 @@ class QualityPanel:
     def clean(self, *_):
         """The panel is gone, however it was closed: the view is as it was before, the arrays are let go."""
         QualityPanel.current = None
+        self.watch.end()
         try:
             self.overlay.remove()
             self.target.ViewObject.Visibility = self.was_visible

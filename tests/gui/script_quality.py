@@ -1,4 +1,6 @@
-"""In FreeCAD's window: refine a face, mesh again, look at the quality panel, click on an element, cut."""
+"""In FreeCAD's window: refine a face, mesh again, look at the quality panel, click on an element, cut.
+The quality panel follows its mesh.
+"""
 
 import json
 import os
@@ -126,6 +128,48 @@ def quality_panel(target):
     assert not FreeCADGui.Control.activeDialog()
 
 
+def quality_follows(target):
+    """The panel shows the mesh that undo brings, also none; it closes when mesh object or document go."""
+    from DelaunayMesher.gui.task_quality import QualityPanel
+
+    document = target.Document
+    panel = open_quality(target)
+    panel.worst_box.table.selectRow(0)
+    panel.cut_box.axis.setCurrentIndex(1)
+    counts = [target.FemMesh.VolumeCount]
+    while counts[-1]:
+        document.undo()
+        wait(0.05)
+        assert len(panel.values) == target.FemMesh.VolumeCount
+        counts.append(target.FemMesh.VolumeCount)
+    say("elements while undoing:", counts)
+    assert panel.overlay.chosen.getNumChildren() == 0
+    while document.RedoCount:
+        document.redo()
+    wait(0.05)
+    assert len(panel.values) == counts[0]
+    name = target.Name
+    document.openTransaction("Delete")
+    document.removeObject(name)
+    document.commitTransaction()
+    wait(0.1)
+    assert not FreeCADGui.Control.activeDialog() and QualityPanel.current is None
+    document.undo()
+    open_quality(document.getObject(name))
+    FreeCAD.closeDocument(document.Name)
+    wait(0.1)
+    assert not FreeCADGui.Control.activeDialog() and QualityPanel.current is None
+
+
+def open_quality(target):
+    from DelaunayMesher.gui.task_quality import QualityPanel
+
+    drive.select(target)
+    FreeCADGui.runCommand("DelaunayMesher_Quality")
+    wait(0.2)
+    return QualityPanel.current
+
+
 def export_report(target):
     """The report is saved; where nothing can be written, a message says so."""
     from DelaunayMesher.gui import task_quality
@@ -150,6 +194,7 @@ def main():
     refine(part, target)
     group(part, target)
     quality_panel(target)
+    quality_follows(target)
 
 
 drive.start(main, "QUALITY")
