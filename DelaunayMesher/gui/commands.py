@@ -31,8 +31,11 @@ class MeshSolid:
         elif selected_surface_mesh() is not None:
             start_mesh.show_error(
                 tr(
-                    "%s is a mesh of triangles, not a solid. Make one of it first: in the workbench Part, "
-                    "menu Part, 'Create shape from mesh', then 'Convert to solid'."
+                    "%s is a mesh of triangles, not a solid. A closed .stl, .off or .ply file is meshed "
+                    'directly by DelaunayMesher.mesh("file.stl") in the Python console (after import '
+                    "DelaunayMesher), or by python3 -m DelaunayMesher file.stl -o file.FCStd on the command "
+                    "line. To mesh it here, make a solid of it first: in the workbench Part, menu Part, "
+                    "'Create shape from mesh', then 'Convert to solid'."
                 )
                 % selected_surface_mesh().Label
             )

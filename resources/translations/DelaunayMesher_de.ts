@@ -68,8 +68,8 @@
       <translation>Die Analyse mit CalculiX berechnen und die Spannungen zeigen; vernetzt zuerst, wenn es kein Netz des Teils und der Optionen gibt, wie sie jetzt sind</translation>
     </message>
     <message>
-      <source>%s is a mesh of triangles, not a solid. Make one of it first: in the workbench Part, menu Part, 'Create shape from mesh', then 'Convert to solid'.</source>
-      <translation>%s ist ein Netz aus Dreiecken, kein Volumenkörper. Zuerst einen daraus machen: im Arbeitsbereich Part, Menü Formteil, „Form aus Netz erstellen“, dann „In Festkörper umwandeln“.</translation>
+      <source>%s is a mesh of triangles, not a solid. A closed .stl, .off or .ply file is meshed directly by DelaunayMesher.mesh("file.stl") in the Python console (after import DelaunayMesher), or by python3 -m DelaunayMesher file.stl -o file.FCStd on the command line. To mesh it here, make a solid of it first: in the workbench Part, menu Part, 'Create shape from mesh', then 'Convert to solid'.</source>
+      <translation>%s ist ein Netz aus Dreiecken, kein Volumenkörper. Eine geschlossene .stl-, .off- oder .ply-Datei vernetzt unmittelbar DelaunayMesher.mesh("file.stl") in der Python-Konsole (nach import DelaunayMesher) oder python3 -m DelaunayMesher file.stl -o file.FCStd auf der Kommandozeile. Um es hier zu vernetzen, zuerst einen Volumenkörper daraus machen: im Arbeitsbereich Part, Menü Formteil, „Form aus Netz erstellen“, dann „In Festkörper umwandeln“.</translation>
     </message>
     <message>
       <source>Options</source>

@@ -26,17 +26,17 @@ def objects_without_a_solid():
         refused(part, words)
     triangles = document.addObject("Mesh::Feature", "Triangles")
     triangles.Mesh = Mesh.createBox(10, 10, 10)
-    refused(triangles, "Create shape from mesh")
+    refused(triangles, "Create shape from mesh", 'DelaunayMesher.mesh("file.stl")', "-o file.FCStd")
     assert not [item for item in document.Objects if item.isDerivedFrom("Fem::FemMeshObject")]
     assert not document.UndoCount
 
 
-def refused(item, words):
+def refused(item, *words):
     drive.select(item)
     assert FreeCADGui.Command.get(COMMAND).isActive()
     text = drive.message_of(lambda: FreeCADGui.runCommand(COMMAND))
     say(text)
-    assert item.Label in text and words in text
+    assert all(word in text for word in (item.Label, *words))
     assert not FreeCADGui.Control.activeDialog()
 
 
