@@ -6,7 +6,7 @@ import FreeCADGui
 
 from .commands import is_our_mesh
 from .guards import undo_step
-from .start_mesh import panel_is_open, show_error
+from .start_mesh import panel_is_open, show_error, show_status
 from .texts import tr
 
 SIZES_TO_RADIUS = 3.0  # radius of a new size region in its sizes
@@ -38,9 +38,7 @@ def refine_here(selection):
     with undo_step(document, tr("Size region")):
         place = place_of(chosen, mesh.Shape)
         region = add_size_region(mesh, Region.ball(place, SIZES_TO_RADIUS * size, size))
-    document.recompute()
-    FreeCADGui.Selection.clearSelection()
-    FreeCADGui.getDocument(document.Name).setEdit(region.Name)
+    edit(region, mesh, chosen.Object)
 
 
 def place_of(chosen, part):
@@ -63,21 +61,30 @@ def selected_elements(selection):
     if len(chosen) != 1:
         show_error(tr("Select faces, edges or vertices of one part."))
         return None, None
-    mesh = mesh_of(chosen[0].Object)
-    if mesh is None:
+    meshes = meshes_of(chosen[0].Object)
+    if not meshes:
         show_error(tr("This part has no mesh object yet. Use 'Mesh this solid' first."))
         return None, None
-    return chosen[0], mesh
+    return chosen[0], wanted_mesh(meshes, selection)
 
 
-def mesh_of(part):
-    """The first mesh object of ours for this object, or else for the body or container that it is in."""
+def meshes_of(part):
+    """The mesh objects of ours for this object, then those for the body and containers that it is in."""
+    meshes = []
     while part is not None:
-        for item in part.Document.Objects:
-            if is_our_mesh(item) and item.Shape == part:
-                return item
+        meshes += [item for item in part.Document.Objects if is_our_mesh(item) and item.Shape == part]
         part = part.getParentGeoFeatureGroup()
-    return None
+    return meshes
+
+
+def wanted_mesh(meshes, selection):
+    """Of several: one that is selected too, or else is in the active analysis, or else the first."""
+    from ..document.mesh_object import active_analysis
+
+    selected = [item.Object for item in selection]
+    analysis = active_analysis(meshes[0].Document)
+    analysed = analysis.Group if analysis else []
+    return max(meshes, key=lambda mesh: (mesh in selected, mesh in analysed))
 
 
 def create(selection, title, new):
@@ -93,9 +100,19 @@ def create(selection, title, new):
     with undo_step(document, title):
         made = new(mesh, part)
         made.References = [(part, list(chosen.SubElementNames))]
+    edit(made, mesh, chosen.Object)
+
+
+def edit(made, mesh, part):
+    """Open the panel of what was made; the status bar says whose it is when the part has several meshes."""
+    document = made.Document
     document.recompute()
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.getDocument(document.Name).setEdit(made.Name)
+    count = len(meshes_of(part))
+    if count > 1:
+        text = tr("%s belongs to %s, one of %d meshes of this part; it can be dragged to another")
+        show_status(text % (made.Label, mesh.Label, count))
 
 
 def new_refinement(mesh, part):

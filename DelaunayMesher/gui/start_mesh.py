@@ -5,6 +5,8 @@ import FreeCADGui
 
 from .texts import tr
 
+STATUS_MILLISECONDS = 15000
+
 
 def create(part):
     """New mesh object for `part` with the default options, undoable, in the active analysis; its panel opens.
@@ -86,3 +88,9 @@ def show_error(text):
 
     FreeCAD.Console.PrintError("Delaunay Mesher: %s\n" % text)
     QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), tr("Delaunay Mesher"), text)
+
+
+def show_status(text):
+    """A line in the status bar for some seconds, and in the report view."""
+    FreeCAD.Console.PrintMessage("Delaunay Mesher: %s\n" % text)
+    FreeCADGui.getMainWindow().statusBar().showMessage(text, STATUS_MILLISECONDS)

@@ -284,6 +284,10 @@
       <translation>Netzverfeinerung</translation>
     </message>
     <message>
+      <source>%s belongs to %s, one of %d meshes of this part; it can be dragged to another</source>
+      <translation>%s gehört zu %s, einem von %d Netzen dieses Teils; es lässt sich auf ein anderes ziehen</translation>
+    </message>
+    <message>
       <source>Size region</source>
       <translation>Größenbereich</translation>
     </message>

@@ -6,8 +6,9 @@ import drive
 import FreeCAD
 import FreeCADGui
 from drive import say, wait
+from PySide import QtGui
 
-from DelaunayMesher.document import run
+from DelaunayMesher.document import add_mesh, run
 from DelaunayMesher.document.references import refinement_objects
 
 TURNED = FreeCAD.Placement(FreeCAD.Vector(100, 0, 0), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 90))
@@ -140,6 +141,35 @@ def faces_in_a_meshed_container_can_be_refined(document):
     assert target.FemMesh.VolumeCount > 2 * before
 
 
+def one_of_several_meshes_is_refined():
+    """The selected one, or else that in the active analysis, or else the first; the report view names it."""
+    document = FreeCAD.newDocument("Several")
+    box = document.addObject("Part::Box", "Box")
+    document.recompute()
+    first, selected, analysed = (add_mesh(box) for _ in range(3))
+    refined(box, None, first)
+    drive.add_analysis(document).addObject(analysed)
+    refined(box, None, analysed)
+    refined(box, selected, selected)
+
+
+def refined(box, selected, expected):
+    """Refinement, size region and group at a vertex of the box are those of the expected mesh."""
+    messages = FreeCADGui.getMainWindow().findChild(QtGui.QTextEdit, "Report view")
+    for command in ("RefineFaces", "RefineHere", "Group"):
+        messages.clear()
+        drive.select(box, "Vertex1")
+        if selected:
+            FreeCADGui.Selection.addSelection(selected)
+        FreeCADGui.runCommand("DelaunayMesher_" + command)
+        wait(0.1)
+        made = FreeCADGui.ActiveDocument.getInEdit().Object
+        assert made in expected.ViewObject.Proxy.claimChildren()
+        assert "%s belongs to %s, one of 3" % (made.Label, expected.Label) in messages.toPlainText()
+        FreeCADGui.ActiveDocument.resetEdit()
+        wait(0.1)
+
+
 def main():
     drive.activate()
     document = make_assembly()
@@ -154,6 +184,7 @@ def main():
     an_array_can_be_meshed(document)
     loads_on_links_are_refused(document)
     faces_in_a_meshed_container_can_be_refined(document)
+    one_of_several_meshes_is_refined()
 
 
 drive.start(main, "PLACES")
