@@ -9,6 +9,7 @@ import os
 import sys
 import time
 from contextlib import nullcontext
+from itertools import combinations
 
 from . import __version__
 from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
@@ -81,6 +82,10 @@ def main(argv=None):
     arguments = parser().parse_args(argv)
     bar = TerminalBar() if sys.stderr.isatty() and not arguments.quiet else None
     try:
+        check_places(arguments)
+    except InputError as error:  # no report: its place may be the file that is to stay as it is
+        return failed(arguments, error, bar)[0]
+    try:
         status, report = work(arguments, bar)
     except KeyboardInterrupt:
         status, report = failed(arguments, MeshCancelled("command line"), bar)
@@ -95,6 +100,23 @@ def main(argv=None):
             complain("%s: %s" % (arguments.report, error.strerror))
             return EXIT_CANCELLED if status == EXIT_CANCELLED else max(status, InputError.exit_code)
     return status
+
+
+def check_places(arguments):
+    """Raise InputError when input, output and report are not files of their own."""
+    files = [("the input", arguments.input), ("the output", arguments.output)]
+    if arguments.report:
+        files.append(("the report", arguments.report))
+    for (other, taken), (what, path) in combinations(files, 2):
+        if is_same_file(path, taken):
+            raise InputError("write", "same_file", "%s: %s would replace %s" % (path, what, other))
+
+
+def is_same_file(path, other):
+    """Whether both name one file, which need not exist: by links, or written otherwise."""
+    if os.path.exists(path) and os.path.exists(other):
+        return os.path.samefile(path, other)
+    return os.path.normcase(os.path.realpath(path)) == os.path.normcase(os.path.realpath(other))
 
 
 def work(arguments, bar):

@@ -120,6 +120,31 @@ def test_wrong_usage(part, tmp_path, extra):
     assert not (tmp_path / "a.vtu").exists()
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["part.mesh", "-o", "part.mesh"],
+        ["part.mesh", "-o", "link.mesh"],
+        ["part.mesh", "-o", "folder/../part.mesh"],
+        ["part.mesh", "-o", "a.vtu", "--report", "part.mesh"],
+        ["part.mesh", "-o", "a.vtu", "--report", "folder/../a.vtu"],
+        ["part.FCStd", "-o", "part.FCStd"],
+    ],
+)
+def test_no_file_replaces_another_of_the_same_run(tmp_path, monkeypatch, capsys, arguments):
+    monkeypatch.chdir(tmp_path)
+    for name in ("part.mesh", "part.FCStd"):
+        Path(name).write_text("what somebody has made")
+    os.symlink("part.mesh", "link.mesh")
+    os.mkdir("folder")
+    before = sorted(os.listdir("."))
+    assert main(arguments) == 2
+    assert "would replace" in capsys.readouterr().err
+    assert sorted(os.listdir(".")) == before
+    for name in ("part.mesh", "part.FCStd"):
+        assert Path(name).read_text() == "what somebody has made"
+
+
 def test_unreadable_input(tmp_path):
     (tmp_path / "bad.stl").write_text("what is this")
     (tmp_path / "a.doc").write_text("letter")
