@@ -63,8 +63,8 @@ def _read_stl(path):
         record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", 9), ("unused", "<u2")])
         corners = np.frombuffer(data, record, count, 84)["corners"].astype(np.float64)
     elif data.lstrip()[:5].lower() == b"solid":
-        corners = np.array(re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data, re.IGNORECASE), dtype="S32")
-        corners = corners.astype(np.float64).reshape(-1, 9)
+        places = re.findall(rb"vertex\s+(\S+\s+\S+\s+\S+)", data, re.IGNORECASE)
+        corners = np.array(b" ".join(places).split(), dtype=np.float64).reshape(-1, 9)
     else:
         raise ValueError("neither a binary nor a text STL")
     return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))

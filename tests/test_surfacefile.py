@@ -74,6 +74,14 @@ def test_text_and_binary_stl(tmp_path):
         check(tmp_path / "binary.stl", volume(points, triangles), 1e-6)
 
 
+@pytest.mark.parametrize("digits", [3, 26, 27, 60])
+def test_text_stl_numbers_of_any_length(tmp_path, digits):
+    corners = -20 * box()[0][box()[1]].reshape(-1, 3)
+    lines = ["vertex " + " ".join("%.*e" % (digits, x) for x in corner) for corner in corners]
+    (tmp_path / "a.stl").write_text("\n".join(["solid x", *lines]))
+    assert np.array_equal(read_surface(tmp_path / "a.stl").points, corners)
+
+
 @pytest.mark.parametrize("order", ["<", ">"])
 def test_binary_ply(tmp_path, order):
     points, triangles = sphere()
