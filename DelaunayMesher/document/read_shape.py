@@ -1,6 +1,7 @@
 """CAD file -> Part shape."""
 
 import os
+from contextlib import contextmanager
 
 from ..cadprocess import CAD_ENDINGS, ending_of
 from ..errors import InputError
@@ -51,14 +52,28 @@ def shape_of_document(path):
     for document in FreeCAD.listDocuments().values():
         if document.FileName and os.path.realpath(document.FileName) == os.path.realpath(path):
             return shape_of_solids(document)
+    with active_document_kept():
+        try:
+            document = FreeCAD.openDocument(path, True)
+        except Exception as error:  # a broken archive raises whatever its first broken part raises
+            raise InputError("read", "unreadable", "FreeCAD cannot open %s: %s" % (path, error)) from error
+        try:
+            return shape_of_solids(document)
+        finally:
+            FreeCAD.closeDocument(document.Name)
+
+
+@contextmanager
+def active_document_kept():
+    """FreeCAD makes a document that it opens the active one, and has none when that is closed."""
+    import FreeCAD
+
+    active = FreeCAD.ActiveDocument
     try:
-        document = FreeCAD.openDocument(path, True)
-    except Exception as error:  # a broken archive raises whatever its first broken part raises
-        raise InputError("read", "unreadable", "FreeCAD cannot open %s: %s" % (path, error)) from error
-    try:
-        return shape_of_solids(document)
+        yield
     finally:
-        FreeCAD.closeDocument(document.Name)
+        if active:
+            FreeCAD.setActiveDocument(active.Name)
 
 
 def shape_of_solids(document):

@@ -114,6 +114,16 @@ def test_an_open_document_stays_open(document, tmp_path):
     assert document.getObject("Box") == box
 
 
+def test_the_active_document_stays_active(document, tmp_path):
+    FreeCAD.setActiveDocument(document.Name)
+    read_shape(BRACKET.replace(".step", ".FCStd"))
+    assert FreeCAD.ActiveDocument == document
+    (tmp_path / "broken.FCStd").write_text("nothing of the kind")
+    with pytest.raises(InputError):
+        read_shape(tmp_path / "broken.FCStd")
+    assert FreeCAD.ActiveDocument == document
+
+
 def test_what_cannot_be_read(tmp_path):
     with pytest.raises(InputError, match="no file"):
         read_shape(tmp_path / "none.step")
