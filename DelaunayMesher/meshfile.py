@@ -6,7 +6,7 @@ import tempfile
 import numpy as np
 
 from .cadprocess import ending_of
-from .errors import InputError
+from .errors import InputError, MeshError
 from .inpfile import write_inp
 from .surfacefile import import_meshio
 from .vtufile import write_vtu
@@ -24,6 +24,19 @@ def write_by_freecad(path, mesh):
     from . import document
 
     document.fem_mesh(mesh).write(path)
+    if ending_of(path) == ".med" and not is_whole_hdf5(path):
+        raise OSError("the file could not be completed; is the disk full?")
+
+
+def is_whole_hdf5(path):
+    """Whether an HDF5 file ends where its head says.
+
+    The head gets its last form when all else is written; that this fails, FreeCAD does not notice.
+    """
+    with open(path, "rb") as file:
+        head = file.read(52)
+    place = {0: 40, 1: 44}.get(head[8], 28)  # of the file's end, by the version of the head
+    return int.from_bytes(head[place : place + 8], "little") == os.path.getsize(path)
 
 
 # All else is meshio's; in its .med files the nodes have VTK's order, there are no groups, and FreeCAD finds
@@ -92,8 +105,10 @@ def write_mesh(path, mesh):
                 write_with_meshio(target, to_meshio(mesh))
             for name in os.listdir(workshop):  # some formats take several files
                 os.replace(os.path.join(workshop, name), os.path.join(folder, name))
-    except OSError as error:
-        raise _unwritable("%s: %s" % (path, error)) from None
+    except MeshError:
+        raise
+    except Exception as error:  # FreeCAD and meshio have errors of their own
+        raise _unwritable("%s: %s" % (path, str(error) or type(error).__name__)) from error
 
 
 def write_with_meshio(path, mesh):

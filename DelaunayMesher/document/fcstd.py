@@ -2,9 +2,11 @@
 
 import os
 import tempfile
+import zipfile
 
 from ..errors import InputError
 from .find_freecad import find_freecad
+from .read_shape import words
 
 
 def write_fcstd(path, mesh, shape=None, options=None):
@@ -45,6 +47,9 @@ def save(document, path):
         with tempfile.TemporaryDirectory(dir=folder, prefix=".mesh-") as workshop:
             draft = os.path.join(workshop, "mesh.FCStd")
             document.saveAs(draft)
+            if not zipfile.is_zipfile(draft):  # of the last that it writes FreeCAD does not notice a failure
+                raise OSError("the file could not be completed; is the disk full?")
             os.replace(draft, path)
-    except OSError as error:
-        raise InputError("write", "unwritable", "%s: %s" % (path, error.strerror or error)) from None
+    except Exception as error:  # FreeCAD raises errors of its own beside OSError
+        reason = getattr(error, "strerror", None) or words(error)
+        raise InputError("write", "unwritable", "%s: %s" % (path, reason)) from error
