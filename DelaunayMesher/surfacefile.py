@@ -4,7 +4,9 @@ Polygons with more than three corners, and facets with holes, are triangulated w
 reader raises InputError for a file that is not what its name says.
 """
 
+import io
 import re
+from contextlib import redirect_stderr, redirect_stdout
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -125,7 +127,12 @@ def _read_medit(path):
 
 
 def _read_vtk(path):
-    """Legacy or XML VTK through meshio: its triangles and polygons, or the boundary of its tetrahedra."""
+    """PolyData, or anything else through meshio: triangles and polygons, or the boundary of tetrahedra."""
+    from .vtkfile import is_polydata, read_polydata
+
+    if is_polydata(path):
+        points, polygons = read_polydata(path)
+        return Surface(points, triangulate_polygons(points, polygons))
     mesh = read_with_meshio(path)
     faces = [cells.data for cells in mesh.cells if cells.type in ("triangle", "quad", "polygon")]
     points = np.asarray(mesh.points, dtype=np.float64)
@@ -146,9 +153,14 @@ def boundary_of_tets(tets):
 def read_with_meshio(path):
     """meshio's mesh of a file; its errors become ours."""
     meshio = import_meshio()
+    said = io.StringIO()
     try:
-        return meshio.read(path)
-    except (Exception, SystemExit) as error:  # meshio leaves the program when a file is missing
+        with redirect_stdout(said), redirect_stderr(said):
+            return meshio.read(path)
+    except SystemExit:  # meshio prints why no reader of its takes the file, and leaves the program
+        reason = said.getvalue().strip().split("\n")[0] or "meshio does not know what is in it"
+        raise unreadable("not readable: %s" % reason) from None
+    except Exception as error:
         raise unreadable("not readable: %s" % error) from None
 
 

@@ -153,6 +153,59 @@ def test_vtk_surface_and_boundary_of_tetrahedra(tmp_path):
     check(tmp_path / "b.vtk", 1 / 6 + 1 / 3)
 
 
+def polydata(points, polygons, binary=False, version="3.0"):
+    """What VTK writes, with sections that are no business of ours."""
+
+    def numbers(values, kind):
+        if binary:
+            return np.asarray(values, kind).tobytes() + b"\n"
+        return " ".join("%.17g" % x for x in np.ravel(values)).encode() + b"\n"
+
+    head = "# vtk DataFile Version %s\nvtk output\n%s\nDATASET POLYDATA\n"
+    data = (head % (version, "BINARY" if binary else "ASCII")).encode()
+    data += b"FIELD FieldData 1\nTimeValue 1 1 double\n" + numbers([3.5], ">f8")
+    data += b"POINTS %d double\n" % len(points) + numbers(points, ">f8") + b"METADATA\nINFORMATION 0\n\n"
+    corners = np.concatenate(polygons)
+    sizes = [len(polygon) for polygon in polygons]
+    if version == "5.1":
+        data += b"LINES 2 2\nOFFSETS vtktypeint64\n" + numbers([0, 2], ">i8")
+        data += b"CONNECTIVITY vtktypeint64\n" + numbers([0, 1], ">i8")
+        data += b"POLYGONS %d %d\nOFFSETS vtktypeint64\n" % (len(polygons) + 1, len(corners))
+        data += numbers(np.cumsum([0, *sizes]), ">i8") + b"CONNECTIVITY vtktypeint64\n"
+        data += numbers(corners, ">i8")
+    else:
+        data += b"LINES 1 3\n" + numbers([2, 0, 1], ">i4")
+        data += b"POLYGONS %d %d\n" % (len(polygons), len(corners) + len(polygons))
+        data += numbers([n for polygon in polygons for n in (len(polygon), *polygon)], ">i4")
+    data += b"CELL_DATA %d\nSCALARS a int 1\nLOOKUP_TABLE default\n" % len(polygons)
+    return data + numbers(sizes, ">i4")
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("version", ["3.0", "5.1"])
+def test_vtk_polydata(tmp_path, binary, version):
+    points, triangles = sphere()
+    (tmp_path / "a.vtk").write_bytes(polydata(points, triangles, binary, version))
+    check(tmp_path / "a.vtk", volume(points, triangles))
+    quads = [[int(n) for n in quad.split()] for quad in QUADS]
+    mixed = [[0, 1, 3], [0, 3, 2], *quads[1:]]
+    data = polydata(box()[0], mixed, binary, version)
+    (tmp_path / "a.vtk").write_bytes(data)
+    check(tmp_path / "a.vtk", 1)
+    for broken in (data[: data.index(b"POLYGONS") + 40], data.replace(b"LINES", b"TRIANGLE_STRIPS")):
+        (tmp_path / "a.vtk").write_bytes(broken)
+        with pytest.raises(InputError, match="a.vtk"):
+            read_surface(tmp_path / "a.vtk")
+
+
+def test_what_meshio_says_before_it_leaves_the_program(tmp_path, capfd):
+    pytest.importorskip("meshio")
+    (tmp_path / "a.vtk").write_text("# vtk DataFile Version 3.0\nx\nASCII\nDATASET NONSENSE\n")
+    with pytest.raises(InputError, match="NONSENSE"):
+        read_surface(tmp_path / "a.vtk")
+    assert capfd.readouterr() == ("", "")
+
+
 @pytest.mark.parametrize(
     "name, text",
     [
