@@ -1,5 +1,7 @@
 """Read .ply files, text and binary: the points and the polygons."""
 
+from codecs import BOM_UTF8
+
 import numpy as np
 
 TYPES = {
@@ -32,7 +34,7 @@ def read_ply(path):
 
 
 def _read_header(file):
-    if file.readline().strip() != b"ply":
+    if file.readline().strip() not in (b"ply", BOM_UTF8 + b"ply"):
         raise ValueError("no 'ply' in the first line")
     encoding, elements = None, []
     while True:

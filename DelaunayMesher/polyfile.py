@@ -36,7 +36,8 @@ def _read_nodes(path, rows):
     """Numbers and coordinates of the points, and the row after them."""
     count, at = int(rows[0][0]), 1
     if count == 0:  # the points are in the .node file beside it
-        with open(os.path.splitext(str(path))[0] + ".node") as file:
+        beside = os.path.splitext(str(path))[0] + ".node"
+        with open(beside, encoding="utf-8-sig", errors="replace") as file:
             stripped = (line.split("#")[0].split() for line in file)
             nodes = [row for row in stripped if row]
         count, nodes = int(nodes[0][0]), nodes[1:]

@@ -57,6 +57,8 @@ def _read_stl(path):
     with open(path, "rb") as file:
         data = file.read()
     count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
+    if count == 0 and (len(data) - 84) % 50 == 0:  # some programs write it before they know
+        count = (len(data) - 84) // 50
     if (
         count >= 0
         and len(data) >= 84 + 50 * count
@@ -64,7 +66,7 @@ def _read_stl(path):
     ):
         record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", 9), ("unused", "<u2")])
         corners = np.frombuffer(data, record, count, 84)["corners"].astype(np.float64)
-    elif data.lstrip()[:5].lower() == b"solid":
+    elif re.match(rb"(\xef\xbb\xbf)?\s*solid", data, re.IGNORECASE):
         places = re.findall(rb"vertex\s+(\S+\s+\S+\s+\S+)", data, re.IGNORECASE)
         corners = np.array(b" ".join(places).split(), dtype=np.float64).reshape(-1, 9)
     else:
@@ -90,7 +92,7 @@ def _read_off(path):
 
 def _read_obj(path):
     points, faces = [], []
-    for line in _lines(path):
+    for line in _continued(_lines(path)):
         words = line.split()
         if words[0] == "v":
             points.append([float(word) for word in words[1:4]])
@@ -187,9 +189,19 @@ def triangulate_polygons(points, faces):
 
 def _lines(path, comment="#"):
     """Lines that are neither empty nor comments."""
-    with open(path, errors="replace") as file:
+    with open(path, encoding="utf-8-sig", errors="replace") as file:  # some begin with a byte order mark
         stripped = (line.split(comment)[0].strip() for line in file)
         return [line for line in stripped if line]
+
+
+def _continued(lines):
+    """The lines, of which one that ends with a backslash goes on in the next."""
+    begun = ""
+    for line in lines:
+        begun += line.rstrip("\\") + " "
+        if not line.endswith("\\"):
+            yield begun
+            begun = ""
 
 
 def _words(path):

@@ -74,6 +74,34 @@ def test_text_and_binary_stl(tmp_path):
         check(tmp_path / "binary.stl", volume(points, triangles), 1e-6)
 
 
+def test_binary_stl_whose_head_says_no_triangles(tmp_path):
+    points, triangles = sphere()
+    record = b"".join(struct.pack("<12fH", 0, 0, 0, *c.reshape(-1), 0) for c in points[triangles])
+    (tmp_path / "a.stl").write_bytes(bytes(84) + record)
+    check(tmp_path / "a.stl", volume(points, triangles), 1e-6)
+    for cut in (record[:0], record[:-1]):
+        (tmp_path / "a.stl").write_bytes(bytes(84) + cut)
+        with pytest.raises(InputError, match="no triangles"):
+            read_surface(tmp_path / "a.stl")
+
+
+@pytest.mark.parametrize("writer", [off, obj, medit, smesh, ply])
+def test_byte_order_marks(tmp_path, writer):
+    path = tmp_path / ("a." + {"medit": "mesh"}.get(writer.__name__, writer.__name__))
+    path.write_text(writer(*box()), encoding="utf-8-sig")
+    check(path, 1)
+    write_stl(tmp_path / "a.stl", *box())
+    (tmp_path / "a.stl").write_text((tmp_path / "a.stl").read_text(), encoding="utf-8-sig")
+    check(tmp_path / "a.stl", 1)
+
+
+def test_obj_lines_that_go_on(tmp_path):
+    text = "\n".join(["v " + " ".join(map(str, p)) for p in box()[0]])
+    text += "".join("\nf %d \\\n  %d %d\\\n %d" % tuple(int(n) + 1 for n in quad.split()) for quad in QUADS)
+    (tmp_path / "a.obj").write_text(text)
+    check(tmp_path / "a.obj", 1)
+
+
 @pytest.mark.parametrize("digits", [3, 26, 27, 60])
 def test_text_stl_numbers_of_any_length(tmp_path, digits):
     corners = -20 * box()[0][box()[1]].reshape(-1, 3)
@@ -138,7 +166,7 @@ def test_poly_with_holes_in_facets_and_volume(tmp_path):
 def test_node_file_beside_poly(tmp_path):
     points, triangles = box()
     lines = smesh(points, triangles).splitlines()
-    (tmp_path / "a.node").write_text("\n".join(lines[:9]))
+    (tmp_path / "a.node").write_text("\n".join(lines[:9]), encoding="utf-8-sig")
     (tmp_path / "a.smesh").write_text("\n".join(["0 3 0 0", *lines[9:]]))
     check(tmp_path / "a.smesh", 1)
 
