@@ -70,12 +70,12 @@ class Option:
     def _number(self, value):
         whole = self.kind in ("int", "choice")
         try:
-            number = int(value) if whole else float(value)
+            number = float(value)  # of whole numbers too: 1e6
         except (TypeError, ValueError, OverflowError):
             self._refuse(value, "must be a number")
-        if isinstance(value, bool) or not math.isfinite(number) or (whole and number != float(value)):
+        if isinstance(value, bool) or not math.isfinite(number) or (whole and not number.is_integer()):
             self._refuse(value, "must be a whole number" if whole else "must be finite")
-        return number
+        return int(number) if whole else number
 
     def _refuse(self, value, what):
         unit = " " + self.unit if self.unit else ""

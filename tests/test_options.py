@@ -44,6 +44,9 @@ def test_table_is_complete():
         {"optimise": 2},
         {"seed": -1},
         {"threads": 0.5},
+        {"max_elements": "1.5e0"},
+        {"max_elements": "1e400"},
+        {"max_elements": "nan"},
         {"sizes": {"Face": 1}},
         {"sizes": {"Face0": 1}},
         {"sizes": {"face1": 1}},
@@ -70,6 +73,7 @@ def test_options_from_anything():
     assert make_options().max_size is None
     assert make_options({"max_size": 2}).max_size == 2.0
     assert make_options(MeshOptions(order=2), max_size="3.5").order == 2
+    assert repr(make_options(max_elements="1e6", seed="7").max_elements) == "1000000"
     assert make_options(MeshOptions(), sizes={"Face3": "0.5"}).sizes == {"Face3": 0.5}
     with pytest.raises(InputError):
         make_options(3)
