@@ -14,7 +14,7 @@ from itertools import combinations
 from . import __version__
 from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
 from .errors import EXIT_BELOW_TARGET, EXIT_CANCELLED, EXIT_OK, InputError, MeshCancelled, MeshError, refusal
-from .options import OPTIONS, MeshOptions
+from .options import BY_NAME, OPTIONS, MeshOptions
 from .progress import TerminalBar
 
 
@@ -165,7 +165,15 @@ def failed(arguments, error, bar):
     if bar:
         bar.clear()
     complain(error.message if isinstance(error, MeshCancelled) else str(error))
-    return error.exit_code, error_report(error, arguments.seed)
+    return error.exit_code, error_report(error, seed_of(arguments))
+
+
+def seed_of(arguments):
+    """The seed as a number; None when it is none."""
+    try:
+        return BY_NAME["seed"].check(arguments.seed)
+    except InputError:
+        return None
 
 
 def summary(mesh, output):

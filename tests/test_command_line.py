@@ -162,6 +162,9 @@ def test_no_mesh(tmp_path):
     assert "open_edge" in done.stderr and "near (" in done.stderr
     report = json.loads((tmp_path / "a.json").read_text())
     assert report["status"] == "failed" and report["error"]["code"] == "open_edge"
+    for seed, reported in (("7", 7), ("1e2", 100), ("seven", None)):
+        run(tmp_path / "open.stl", "-o", tmp_path / "a.vtu", "--report", tmp_path / "a.json", "--seed", seed)
+        assert json.loads((tmp_path / "a.json").read_text())["seed"] == reported
     done = run(tmp_path / "open.stl")
     assert done.returncode == 2
 
