@@ -149,6 +149,7 @@ def mesh_source(source, arguments, bar):
         bar("write", 0.0)
     write_mesh(arguments.output, mesh)
     mesh.seconds["write"] = time.perf_counter() - start
+    mesh.total_seconds += mesh.seconds["write"]
     if bar:
         bar.clear()
     if not arguments.quiet:

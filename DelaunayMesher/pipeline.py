@@ -32,13 +32,13 @@ def run(source, options=None, report=None, keep=()):
     core = extension.load()
     options = make_options(options)
     seconds, notes = {}, []
+    start = time.perf_counter()
     if isinstance(source, (str, os.PathLike)):
         with _stage("read", seconds, report):
             source = read(source, notes)
     elif isinstance(source, CadProcess):
         with _stage("read", seconds, report):
             source.wait()
-    start = time.perf_counter()
     with _stage("plc", seconds, report):
         plcs, shape, converted = to_plcs(source, options, keep)
         if options.max_size is None:

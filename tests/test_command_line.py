@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -67,11 +68,26 @@ def test_mesh_and_report(part, tmp_path):
     report = json.loads((tmp_path / "a.json").read_text())
     assert report["status"] == "ok" and report["seed"] == 7
     assert report["points"] == len(mesh.points) and report["tetrahedra"] == len(mesh.cells[0].data)
-    assert list(report["seconds"])[0] == "total" and "write" in report["seconds"]
+    assert list(report["seconds"])[:2] == ["total", "read"] and "write" in report["seconds"]
     assert report["peak_bytes"] > 1e6
     assert report["quality"]["min_dihedral"] > 15
     assert set(report["quality"]["below"]) == {"5", "10", "15", "20", "30"}
     assert report["below_target"] == [] and report["warnings"] == []
+
+
+def test_reading_and_writing_are_in_the_total(part, tmp_path, monkeypatch, capsys):
+    from DelaunayMesher import meshfile, pipeline
+
+    def slow(real, *arguments):
+        time.sleep(0.3)
+        return real(*arguments)
+
+    for module, name in ((pipeline, "read_surface"), (meshfile, "write_mesh")):
+        monkeypatch.setattr(module, name, partial(slow, getattr(module, name)))
+    assert main([str(part), "-o", str(tmp_path / "a.vtu"), "--report", str(tmp_path / "a.json")]) == 0
+    total, *stages = json.loads((tmp_path / "a.json").read_text())["seconds"].values()
+    assert total == pytest.approx(sum(stages), abs=0.25)
+    assert "\n%.3f s: read " % total in capsys.readouterr().out
 
 
 def test_second_order_quiet_and_sizes(part, tmp_path):
