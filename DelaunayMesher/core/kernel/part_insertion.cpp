@@ -86,8 +86,8 @@ std::vector<PartInsertion::Task> PartInsertion::make_tasks(const std::vector<Ind
 }
 
 void PartInsertion::run(std::vector<Task>& tasks) {
-  for_all(threads_, static_cast<int>(tasks.size()),
-          [&](int, int k, const std::atomic<bool>&) { run(tasks[k]); });
+  const auto work = [&](int, int k, const std::atomic<bool>&) { run(tasks[k]); };
+  for_all(threads_, static_cast<int>(tasks.size()), work, [] {});
 }
 
 void PartInsertion::run(Task& task) {

@@ -175,10 +175,11 @@ class SurfaceMesher {
     const Index n = face_count();
     std::atomic<Index> finished{0};
     std::atomic<double> done{0};
-    for_all(context_.threads, n, [&](int thread, Index f, const std::atomic<bool>& stop) {
+    const auto remesh = [&](int thread, Index f, const std::atomic<bool>& stop) {
       if (redo_[f]) remesh_face(source, f, {thread == 0 ? &context_ : nullptr, &stop, &done});
       done = static_cast<double>(++finished) / n;
-    });
+    };
+    for_all(context_.threads, n, remesh, [&] { context_.poll(done); });
     redo_.assign(n, 0);
   }
 
