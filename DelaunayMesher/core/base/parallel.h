@@ -10,7 +10,6 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -44,6 +43,7 @@ void for_all(int threads, int count, Work work, Poll poll) {
   std::size_t ends = 0;
   std::vector<std::thread> others;
   try {
+    others.reserve(threads);
     for (int i = 1; i < threads; ++i)
       others.emplace_back([&, i] {
         run(i);
@@ -51,7 +51,7 @@ void for_all(int threads, int count, Work work, Poll poll) {
         ++ends;
         ended.notify_one();
       });
-  } catch (const std::system_error&) {  // the system has no more threads: those that run do all the work
+  } catch (const std::exception&) {  // no more threads, or no memory for them: those that run do all the work
   }
   run(0);
   std::unique_lock lock(mutex);

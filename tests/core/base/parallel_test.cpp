@@ -2,7 +2,26 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
+#include <new>
+
 using namespace dm;
+
+namespace {
+
+constexpr int kAlways = -1;
+thread_local int allocations = kAlways;  // that succeed on this thread
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  void* memory = allocations == 0 ? nullptr : std::malloc(size);
+  if (!memory) throw std::bad_alloc();
+  if (allocations > 0) --allocations;
+  return memory;
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 TEST_CASE("every item is done once, whatever the number of threads") {
   for (const int threads : {1, 2, 5}) {
@@ -44,4 +63,15 @@ TEST_CASE("a failure on another thread is thrown on the calling one") {
     if (item == 7) throw Failure("check", "check", "seven");
   };
   CHECK_THROWS_AS(for_all(3, 20, work, [] {}), Failure);
+}
+
+TEST_CASE("without memory for threads, those that there are do all the work") {
+  for (int granted = 0; granted < 8; ++granted) {
+    std::vector<std::atomic<int>> done(50);
+    const auto work = [&](int, int item, const std::atomic<bool>&) { ++done[item]; };
+    allocations = granted;
+    for_all(5, 50, work, [] {});
+    allocations = kAlways;
+    for (const auto& times : done) CHECK(times == 1);
+  }
 }
