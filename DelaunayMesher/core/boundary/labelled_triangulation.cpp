@@ -82,9 +82,8 @@ bool corner_in_front(const Tet& v, int i, const Triangle& t) {
 
 bool tag_solids(LabelledTriangulation& mesh) {
   Triangulation& tets = mesh.tets;
-  constexpr std::uint16_t unknown = 0xffff;
   for (Index t = 0; t < tets.slot_count(); ++t)
-    if (!tets.is_free(t)) tets.set_tag(t, tets.is_ghost(t) ? 0 : unknown);
+    if (!tets.is_free(t)) tets.set_tag(t, tets.is_ghost(t) ? 0 : kUnknownSolid);
   std::vector<Index> queue;
   const auto flood = [&](Index start, std::uint16_t solid) {
     tets.set_tag(start, solid);
@@ -95,7 +94,7 @@ bool tag_solids(LabelledTriangulation& mesh) {
       for (int i = 0; i < 4; ++i) {
         if (tets.marked(t, i)) continue;
         const Index n = tets.neighbour(t, i) / 4;
-        if (tets.tag(n) != unknown) continue;
+        if (tets.tag(n) != kUnknownSolid) continue;
         tets.set_tag(n, solid);
         queue.push_back(n);
       }
@@ -104,7 +103,7 @@ bool tag_solids(LabelledTriangulation& mesh) {
   for (Index t = 0; t < tets.slot_count(); ++t)
     if (!tets.is_free(t) && tets.is_ghost(t)) flood(t, 0);
   for (Index t = 0; t < tets.slot_count(); ++t) {
-    if (tets.is_free(t) || tets.tag(t) != unknown || !tets.marks(t)) continue;
+    if (tets.is_free(t) || tets.tag(t) != kUnknownSolid || !tets.marks(t)) continue;
     const int i = std::countr_zero(tets.marks(t));
     const Index label = label_of(mesh, t, i);
     const bool front = corner_in_front(tets.corners(t), i, mesh.boundary.corners(label));

@@ -10,8 +10,6 @@ namespace dm {
 
 namespace {
 
-constexpr std::uint16_t kUnknown = 0xffff;
-
 class Partition {
  public:
   Partition(LabelledTriangulation& mesh, Context& context)
@@ -102,10 +100,10 @@ class Partition {
   // that they say, else of that whose surface winds round a place in it.
   void tag_rooms() {
     for (Index t = 0; t < tets_.slot_count(); ++t)
-      if (!tets_.is_free(t)) tets_.set_tag(t, kUnknown);
+      if (!tets_.is_free(t)) tets_.set_tag(t, kUnknownSolid);
     std::vector<Index> room;
     for (Index t = 0; t < tets_.slot_count(); ++t) {
-      if (tets_.is_free(t) || tets_.tag(t) != kUnknown) continue;
+      if (tets_.is_free(t) || tets_.tag(t) != kUnknownSolid) continue;
       context_.poll(1);
       Index solid = find_room(t, room);
       if (solid < 0) solid = solid_round(largest(room));
@@ -132,7 +130,7 @@ class Partition {
       for (int i = 0; i < 4; ++i) {
         const Index n = tets_.neighbour(t, i) / 4;
         if (!tets_.marked(t, i)) {
-          if (near_[n] || tets_.tag(n) != kUnknown) continue;
+          if (near_[n] || tets_.tag(n) != kUnknownSolid) continue;
           tets_.set_tag(n, 0);
           room.push_back(n);
         } else if (!tets_.is_ghost(t)) {

@@ -37,6 +37,10 @@ void check_sizes(const Plc& plc) {
     fail("bad_arrays", "A number of edges, vertices or solids is negative.");
   }
   if (plc.points.empty() || plc.triangles.empty()) fail("empty", "There is nothing to mesh: no triangles.");
+  if (plc.solid_count > kMostSolids) {
+    fail("too_many_solids", "There are " + std::to_string(plc.solid_count) + " solids, more than the " +
+                                std::to_string(kMostSolids) + " that can be meshed together.");
+  }
 }
 
 bool in_range(Index i, std::size_t count) { return i >= 0 && static_cast<std::size_t>(i) < count; }

@@ -4,12 +4,17 @@
 // every segment is an edge of some triangle, points are distinct.  check_plc() proves it.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/failure.h"
 #include "base/vec3.h"
 
 namespace dm {
+
+// Solids are numbered in the 16 bits of a tetrahedron's tag; the largest number stands for unknown.
+constexpr Index kMostSolids = 0xfffe;
+constexpr std::uint16_t kUnknownSolid = kMostSolids + 1;
 
 struct Plc {
   std::vector<Vec3> points;
@@ -27,8 +32,8 @@ struct Plc {
 };
 
 // Throws Failure("plc", code, ...) naming face and place at the first defect.  Codes: bad_arrays, empty,
-// bad_index, collapsed_triangle, not_a_number, repeated_point, not_a_solid, free_face, coincident_faces,
-// loose_segment, loose_corner, open, orientation, empty_solid, no_volume, inside_out.
+// too_many_solids, bad_index, collapsed_triangle, not_a_number, repeated_point, not_a_solid, free_face,
+// coincident_faces, loose_segment, loose_corner, open, orientation, empty_solid, no_volume, inside_out.
 // Legal: faces shared by two solids, edges with any number of faces, sheets inside a solid (both sides the
 // same solid), points that nothing uses, zero-area triangles.  Not looked for: self-intersection, which is
 // for the finished boundary to show.  O(n log n).

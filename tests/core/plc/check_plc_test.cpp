@@ -192,6 +192,10 @@ TEST_CASE("solids") {
   plc = box();
   plc.solid_count = 2;
   CHECK(defect(plc).code == "empty_solid");
+  plc.solid_count = kMostSolids;
+  CHECK(defect(plc).code == "empty_solid");
+  ++plc.solid_count;
+  CHECK(defect(plc).code == "too_many_solids");
 }
 
 TEST_CASE("zero volume") {
