@@ -23,7 +23,8 @@ struct Input {
       : plc(checked(read_plc(arrays))), geometry(plc, read_geometry(records)) {}
 
   static Plc checked(Plc plc) {
-    check_plc(plc);
+    Context context;
+    check_plc(plc, context);
     return plc;
   }
 };
@@ -85,7 +86,8 @@ nb::object crossings(const Table<double>& points, const Table<Index>& triangles)
   std::vector<std::array<Index, 2>> pairs;
   {
     const nb::gil_scoped_release release;
-    pairs = find_crossings(places, corners);
+    Context context;
+    pairs = find_crossings(places, corners, context);
   }
   return to_numpy<Index>(std::move(pairs));
 }

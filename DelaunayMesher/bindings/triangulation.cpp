@@ -14,7 +14,9 @@ nb::object delaunay(const Table<double>& points, int threads) {
   std::vector<Tet> tets;
   {
     const nb::gil_scoped_release release;
-    const Triangulation triangulation(sites, threads);
+    Context context;
+    context.threads = threads;
+    const Triangulation triangulation(sites, context);
     for (Index t = 0; t < triangulation.slot_count(); ++t)
       if (!triangulation.is_free(t) && !triangulation.is_ghost(t)) tets.push_back(triangulation.corners(t));
   }

@@ -119,8 +119,9 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   MeshResult result;
   StageClock clock(result);
   context.begin("plc");
-  check_plc(given);
+  check_plc(given, context);
   const Geometry geometry(given, std::move(records));
+  context.poll(0);
   Absorbed absorbed;
   const Plc plc = absorb_small_features(given, geometry, options.size, context, absorbed);
   if (absorbed.any()) result.warnings.push_back(absorbed_warning(absorbed));
@@ -163,7 +164,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
     result.second_order = make_second_order(result.mesh, geometry, context);
     clock.stop("order");
   }
-  result.below_target = certify(result.mesh, plc.face_solids, size, options.target_angle);
+  result.below_target = certify(result.mesh, plc.face_solids, size, options.target_angle, context);
   clock.stop("certificate");
   return result;
 }

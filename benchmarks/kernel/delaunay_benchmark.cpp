@@ -39,8 +39,10 @@ struct Timed {
 };
 
 Timed run_own(const std::vector<Vec3>& points, int threads, std::size_t& bytes) {
+  Context context;
+  context.threads = threads;
   const double start = threads == 1 ? cpu_now() : now();
-  const Triangulation t(points, threads);
+  const Triangulation t(points, context);
   Timed timed{(threads == 1 ? cpu_now() : now()) - start, 0};
   for (Index i = 0; i < t.slot_count(); ++i) timed.tets += !t.is_free(i) && !t.is_ghost(i);
   bytes = t.bytes();

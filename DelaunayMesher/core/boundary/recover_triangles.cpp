@@ -50,15 +50,18 @@ class Recovery {
       worse = missing_.size() > fewest ? worse + 1 : 0;
       fewest = std::min(fewest, missing_.size());
       if (worse > kWorseRounds || splits() > most_splits) break;
-      context_.poll(1 - 1.0 / (round + 2));
+      const double fraction = 1 - 1.0 / (round + 2);
       std::vector<Index> work;
       work.swap(missing_);
       std::sort(work.begin(), work.end());
       work.erase(std::unique(work.begin(), work.end()), work.end());
       stuck_.clear();
-      for (const Index t : work)
+      for (const Index t : work) {
+        context_.poll(fraction);
         if (is_missing(t) && !flip(t)) later_.push_back(t);
+      }
       for (const Index t : later_) {
+        context_.poll(fraction);
         if (!is_missing(t)) continue;
         if (splits() > most_splits || !split(t))
           stuck_.push_back(t);

@@ -39,7 +39,7 @@ bool is_connected(const Plc& plc) {
 }
 
 LabelledTriangulation triangulate(const SurfaceMesh& surface, const Plc& plc, Context& context) {
-  LabelledTriangulation mesh{Triangulation(surface.points, context.threads),
+  LabelledTriangulation mesh{Triangulation(surface.points, context),
                              BoundaryComplex(surface, plc.face_solids)};
   for (Index v = 0; v < static_cast<Index>(surface.points.size()); ++v)
     if (mesh.tets.vertex_tet(v) < 0)
@@ -50,9 +50,10 @@ LabelledTriangulation triangulate(const SurfaceMesh& surface, const Plc& plc, Co
 }
 
 // Marks the faces that are labelled triangles; returns the triangles that are no face.
-std::vector<Index> label_faces(LabelledTriangulation& mesh) {
+std::vector<Index> label_faces(LabelledTriangulation& mesh, Context& context) {
   std::vector<char> present(mesh.boundary.slot_count(), 0);
   for (Index tet = 0; tet < mesh.tets.slot_count(); ++tet) {
+    context.tick(0.4);
     if (mesh.tets.is_free(tet) || mesh.tets.is_ghost(tet)) continue;
     for (int i = 0; i < 4; ++i) {
       const Index t = label_of(mesh, tet, i);
@@ -73,7 +74,7 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
                                        const SizeField& size, Context& context, RecoveryReport& report) {
   context.begin("boundary");
   LabelledTriangulation mesh = triangulate(surface, plc, context);
-  std::vector<Index> missing = label_faces(mesh);
+  std::vector<Index> missing = label_faces(mesh, context);
   std::vector<char> fixed;
   for (int round = 0; round < kLayerRounds && !missing.empty(); ++round) {
     SurfaceMesh matching = surface;
@@ -82,7 +83,7 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
     surface = std::move(matching);
     report.layer_points += matched;
     mesh = triangulate(surface, plc, context);
-    missing = label_faces(mesh);
+    missing = label_faces(mesh, context);
   }
   missing = recover_triangles(mesh, geometry, size, missing, true, context, report);
   report.unrecovered_faces = faces_of(mesh.boundary, missing);
@@ -93,7 +94,7 @@ LabelledTriangulation recover_boundary(SurfaceMesh surface, const Plc& plc, cons
     if (weld_points(mesh, plc, replaced.points, welded)) {
       mesh = triangulate(welded, plc, context);
       RecoveryReport again;
-      missing = recover_triangles(mesh, geometry, size, label_faces(mesh), false, context, again);
+      missing = recover_triangles(mesh, geometry, size, label_faces(mesh, context), false, context, again);
       partition_solids(mesh, missing, context);
     }
   }

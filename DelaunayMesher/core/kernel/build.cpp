@@ -47,7 +47,7 @@ class TriangulationBuilder {
  public:
   TriangulationBuilder(Triangulation& t, std::span<const Vec3> points) : t_(t), points_(points) {}
 
-  void run(int threads, Index parallel_from) {
+  void run(Context& context, Index parallel_from) {
     InsertionOrder order = insertion_order(points_);
     const auto first = first_tetrahedron(points_, order.order);
     t_.numbers_ = std::move(order.order);
@@ -57,7 +57,7 @@ class TriangulationBuilder {
     start(first);
     const Index last_round = order.rounds.back() - order.rounds[order.rounds.size() - 2];
     const Index parts_from = last_round >= parallel_from ? parallel_from / kRoundGrowth : last_round + 1;
-    PartInsertion parts(t_, order.codes, threads, parts_from);
+    PartInsertion parts(t_, order.codes, context, parts_from);
     for (std::size_t r = 0; r + 1 < order.rounds.size(); ++r)
       parts.insert_round(order.rounds[r], order.rounds[r + 1]);
     restore_numbers();
@@ -105,11 +105,16 @@ class TriangulationBuilder {
   std::span<const Vec3> points_;
 };
 
-Triangulation::Triangulation(std::span<const Vec3> points, int threads, Index parallel_from) {
+Triangulation::Triangulation(std::span<const Vec3> points, Context& context, Index parallel_from) {
   for (const Vec3& p : points)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       throw Failure("kernel", "not_finite", "A point has a coordinate that is not a number or infinite.", p);
-  TriangulationBuilder(*this, points).run(threads, parallel_from);
+  TriangulationBuilder(*this, points).run(context, parallel_from);
+}
+
+Triangulation::Triangulation(std::span<const Vec3> points) {
+  Context context;
+  *this = Triangulation(points, context);
 }
 
 void Triangulation::move_slot(Index from, Index to) {

@@ -24,6 +24,7 @@ void PartInsertion::insert_round(Index begin, Index end) {
 
 void PartInsertion::insert_serially(const std::vector<Index>& vertices) {
   for (const Index v : vertices) {
+    context_.tick(0);
     if (t_.vertex_tet_[v] >= 0) continue;  // one of the first four
     const Index start = t_.walk(t_.points_[v], hint_, Everywhere{});
     if (start < 0) continue;  // a duplicate
@@ -86,15 +87,19 @@ std::vector<PartInsertion::Task> PartInsertion::make_tasks(const std::vector<Ind
 }
 
 void PartInsertion::run(std::vector<Task>& tasks) {
-  const auto work = [&](int, int k, const std::atomic<bool>&) { run(tasks[k]); };
-  for_all(threads_, static_cast<int>(tasks.size()), work, [] {});
+  const auto work = [&](int thread, int k, const std::atomic<bool>& stop) {
+    run(tasks[k], thread == 0, stop);
+  };
+  for_all(context_.threads, static_cast<int>(tasks.size()), work, [&] { context_.poll(0); });
 }
 
-void PartInsertion::run(Task& task) {
+void PartInsertion::run(Task& task, bool calling_thread, const std::atomic<bool>& stop) {
   const PredicateCounters before = predicate_counters();
   Cavity cavity;
   Index hint = first_tet(task);
   for (const Index v : task.vertices) {
+    if (stop) break;
+    if (calling_thread) context_.tick(0);
     if (t_.vertex_tet_[v] >= 0) continue;  // one of the first four
     const Vec3& p = t_.points_[v];
     const Index start = hint < 0 ? Triangulation::kLeft : t_.walk(p, hint, task.part);

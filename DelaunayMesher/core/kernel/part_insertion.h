@@ -6,6 +6,7 @@
 // is the same, byte for byte, for every number of threads.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -17,8 +18,9 @@ namespace dm {
 class PartInsertion {
  public:
   // `codes`: position of every vertex on the curve, ascending within a round.
-  PartInsertion(Triangulation& t, const std::vector<std::uint32_t>& codes, int threads, Index parallel_from)
-      : t_(t), codes_(codes), threads_(threads), parallel_from_(parallel_from) {}
+  PartInsertion(Triangulation& t, const std::vector<std::uint32_t>& codes, Context& context,
+                Index parallel_from)
+      : t_(t), codes_(codes), context_(context), parallel_from_(parallel_from) {}
 
   // Inserts the vertices begin .. end - 1, all earlier ones being in.
   void insert_round(Index begin, Index end);
@@ -35,12 +37,12 @@ class PartInsertion {
   std::vector<Index> insert_in_parts(std::vector<Index> vertices, Index inserted, bool shifted);
   std::vector<Task> make_tasks(const std::vector<Index>& vertices, Index known, bool shifted);
   void run(std::vector<Task>& tasks);
-  void run(Task& task);
+  void run(Task& task, bool calling_thread, const std::atomic<bool>& stop);
   Index first_tet(const Task& task) const;
 
   Triangulation& t_;
   const std::vector<std::uint32_t>& codes_;
-  int threads_;
+  Context& context_;
   Index parallel_from_;
   std::vector<std::uint8_t> part_of_;
   Index hint_ = 0;

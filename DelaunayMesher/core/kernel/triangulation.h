@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "base/context.h"
 #include "base/tet_geometry.h"
 #include "base/vec3.h"
 #include "kernel/array.h"
@@ -83,7 +84,8 @@ class Triangulation {
   // When the last round has `parallel_from` points or more, it is inserted in parts, which several threads
   // can share, and so are the rounds before it down to an eighth of that; the numbers of the tetrahedra
   // depend on this limit, but never on the number of threads (tests lower it).
-  explicit Triangulation(std::span<const Vec3> points, int threads = 1, Index parallel_from = 1500000);
+  Triangulation(std::span<const Vec3> points, Context& context, Index parallel_from = 1500000);
+  explicit Triangulation(std::span<const Vec3> points);  // on one thread, to the end
 
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   const Vec3& point(Index vertex) const { return points_[vertex]; }

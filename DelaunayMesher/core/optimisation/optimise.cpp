@@ -114,6 +114,7 @@ class Optimiser {
       }
     }
     for (std::size_t i = 0; i < fresh.size(); ++i) {
+      context_.tick(fraction);
       const Index t = fresh[i];
       if (!mesh_.removed(t) && mesh_.bad(t) > bound) apply(flippers_[0].plan_blunt(t, goal));
     }

@@ -290,15 +290,19 @@ void check_volumes(const Plc& plc) {
 
 }  // namespace
 
-void check_plc(const Plc& plc) {
+void check_plc(const Plc& plc, Context& context) {
   check_sizes(plc);
   check_indices(plc);
   const std::vector<Index> face_of_point = face_of_points(plc);
   check_points(plc, face_of_point);
+  context.poll(0);
   check_face_solids(plc);
   check_repeated_triangles(plc);
+  context.poll(0);
   check_features(plc, face_of_point);
+  context.poll(0);
   check_closed(plc);
+  context.poll(0);
   check_volumes(plc);
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/failure.h"
+#include "base/context.h"
 #include "base/vec3.h"
 
 namespace dm {
@@ -37,6 +37,6 @@ struct Plc {
 // Legal: faces shared by two solids, edges with any number of faces, sheets inside a solid (both sides the
 // same solid), points that nothing uses, zero-area triangles.  Not looked for: self-intersection, which is
 // for the finished boundary to show.  O(n log n).
-void check_plc(const Plc& plc);
+void check_plc(const Plc& plc, Context& context);
 
 }  // namespace dm

@@ -119,10 +119,11 @@ BelowTarget explain(const VolumeMesh& mesh, const SizeField& size, const SharpIn
 }  // namespace
 
 std::vector<BelowTarget> certify(const VolumeMesh& mesh, const std::vector<std::array<Index, 2>>& face_solids,
-                                 const SizeField& size, double target_angle) {
+                                 const SizeField& size, double target_angle, Context& context) {
   std::vector<BelowTarget> out;
   SharpInput sharp;
   for (Index t = 0; t < static_cast<Index>(mesh.tets.size()); ++t) {
+    context.tick(1);
     const auto [a, b, c, d] = mesh.tets[t];
     const double angle = dihedral_range(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]).min;
     if (angle >= target_angle) continue;

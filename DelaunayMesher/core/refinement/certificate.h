@@ -27,6 +27,6 @@ inline constexpr double kAcuteAngle = 45;
 // the smallest that walls, gaps and curvature may ask for.  Else "fallback". face_solids: as in Plc.  Cost: a
 // look at every element; the input's angles only when one is below.
 std::vector<BelowTarget> certify(const VolumeMesh& mesh, const std::vector<std::array<Index, 2>>& face_solids,
-                                 const SizeField& size, double target_angle);
+                                 const SizeField& size, double target_angle, Context& context);
 
 }  // namespace dm

@@ -103,6 +103,7 @@ class Refinement {
     for (int pass = 0, changed = 1; changed && pass < kPasses; ++pass) {
       changed = 0;
       for (Index t = 0; t < tets_.slot_count(); ++t) {
+        context_.tick(0);
         if (tets_.is_free(t) || std::popcount(tets_.marks(t)) != 2) continue;
         if (is_inside(t) && peel(mesh_, t, sphere_of(t).centre, false)) {
           ++changed;
@@ -129,7 +130,10 @@ class Refinement {
   }
 
   void collect() {
-    for (Index t = 0; t < tets_.slot_count(); ++t) push_if_bad(t);
+    for (Index t = 0; t < tets_.slot_count(); ++t) {
+      context_.tick(0);
+      push_if_bad(t);
+    }
   }
 
   // All of them; later only those tried in the last round, which are all there are unless tetrahedra have
@@ -171,7 +175,6 @@ class Refinement {
         const Index tet = work_.front();
         waiting_[tet] = false;
         if (sliver_mode_) tried_.push_back(tet);
-        if ((++steps_ & 63) == 0) context_.poll(0.95 * static_cast<double>(report_.sites) / expected_sites_);
         process(tet);
       }
     }
@@ -183,6 +186,7 @@ class Refinement {
     const bool big = is_big(tet, sphere);
     const bool sharp = sliver_mode_ && is_sharp(tet);
     if (!big && !sharp) return;
+    context_.poll(0.95 * static_cast<double>(report_.sites) / expected_sites_);
     if (peel(mesh_, tet, sphere.centre, sharp)) {
       ++report_.flips;
       return;
@@ -421,7 +425,6 @@ class Refinement {
   bool sliver_mode_ = false, constrained_ = false;
   int round_ = 0;
   std::vector<SplitFailure> failures_;  // of labelled triangles
-  std::uint64_t steps_ = 0;
   Cavity cavity_;
   std::deque<Index> work_, next_;            // deques give memory back as they are used up
   std::vector<Index> tried_;                 // in the last round of slivers

@@ -76,6 +76,7 @@ template <class Touches>
 Octree::Builder::Range Octree::Builder::filter(Range range, Touches&& touches) {
   const std::size_t begin = lists_.size();
   for (std::size_t i = range.begin; i < range.end; ++i) {
+    context_.tick(0.4);
     const Index item = lists_[i];
     if (touches(item)) lists_.push_back(item);
   }
@@ -166,6 +167,7 @@ void Octree::Builder::balance() {
   std::vector<Index> queue(cells_.size());
   for (std::size_t i = 0; i < queue.size(); ++i) queue[i] = static_cast<Index>(i);
   while (!queue.empty()) {
+    context_.tick(0.4);
     const Index index = queue.back();
     queue.pop_back();
     for (int side = 0; side < 6; ++side) {
@@ -229,6 +231,7 @@ bool Octree::Builder::relax(Index corner, Index source) {
 void Octree::Builder::sweep() {
   const auto count = static_cast<Index>(cells_.size());
   for (Cell& cell : cells_) {
+    context_.tick(0.4);
     make_corners(cell);
     for (std::size_t i = cell.sources.begin; i < cell.sources.end; ++i)
       for (const Index corner : cell.corner) relax(corner, lists_[i]);
@@ -237,6 +240,7 @@ void Octree::Builder::sweep() {
   for (int round = 1; changed && round <= kMostSweeps; ++round) {
     changed = false;
     for (Index i = 0; i < count; ++i) {
+      context_.tick(0.5);
       Cell& cell = cells_[round % 2 != 0 ? i : count - 1 - i];
       std::uint32_t latest = 0;
       for (const Index corner : cell.corner) latest = std::max(latest, corners_[corner].changed);
@@ -249,7 +253,6 @@ void Octree::Builder::sweep() {
           if (relax(corner, source)) corners_[corner].changed = ++changes_, changed = true;
       }
     }
-    context_.poll(0.5);
   }
 }
 
@@ -287,6 +290,7 @@ std::vector<float> Octree::Builder::corner_values() const {
       for (const Index c : cell.corner) place[c] = cell.place;
   std::vector<float> values(corners_.size());
   for (std::size_t i = 0; i < corners_.size(); ++i) {
+    context_.tick(0.7);
     const CornerValue& c = corners_[i];
     double h = c.value;
     if (c.source >= 0 && field_.sources[c.source].empty_side != 0 && place[i] != Place::inside) {
@@ -312,6 +316,7 @@ void Octree::Builder::finish(double domain_volume) {
   tree_.smallest_ = HUGE_VAL;
   double inside = 0, mixed = 0, mixed_weight = 0;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
+    context_.tick(0.8);
     const Cell& cell = cells_[i];
     std::array<float, 8> plain;
     for (int j = 0; j < 8; ++j) {

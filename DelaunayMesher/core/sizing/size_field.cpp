@@ -47,6 +47,14 @@ double inverse_area(const Field& h, const Vec3& a, const Vec3& b, const Vec3& c,
          inverse_area(h, f, e, c, levels - 1) + inverse_area(h, d, e, f, levels - 1);
 }
 
+template <class Field>
+double inverse_boundary_area(const Field& h, const Plc& plc, int levels) {
+  double sum = 0;
+  for (const auto& [a, b, c] : plc.triangles)
+    sum += inverse_area(h, plc.points[a], plc.points[b], plc.points[c], levels);
+  return sum;
+}
+
 std::string limited_walls(const ProximityResult& found) {
   char text[240];
   std::snprintf(
@@ -107,6 +115,7 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
   std::vector<double> triangle_size(plc.triangles.size(), options.max_size);
   add_given_sizes(plc, options, triangle_size, sources);
   add_curvature(plc, geometry, options, limits, context, triangle_size, sources);
+  context.poll(0.1);
   std::optional<BoundaryTree> boundary;  // costs more than a field without walls and sources
   ProximityResult proximity;
   if (options.elements_across > 0) {
@@ -135,25 +144,18 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
     impl_->constant = false;
     inverse_volume = impl_->octree->inverse_volume();
   }
-  impl_->predicted = kPerVolume * inverse_volume + kPerArea * inverse_boundary_area(plc);
+  const int levels = impl_->constant ? 0 : 8;
+  const auto size = [&](const Vec3& p) {
+    context.tick(0.9);
+    return at(p);
+  };
+  impl_->predicted = kPerVolume * inverse_volume + kPerArea * inverse_boundary_area(size, plc, levels);
   for (const ThinWall& wall : proximity.walls) {
     const auto& [p, q, r] = wall.corner;
     const double layers = wall.width / at((1.0 / 3) * (p + q + r));
     const double per_area = std::clamp(kPerWallArea * (kThickWall - layers), 0.0, kMostPerWallArea);
-    if (per_area > 0)
-      impl_->predicted +=
-          wall.weight * per_area *
-          inverse_area([&](const Vec3& x) { return at(x); }, p, q, r, impl_->constant ? 0 : 8);
+    if (per_area > 0) impl_->predicted += wall.weight * per_area * inverse_area(size, p, q, r, levels);
   }
-}
-
-double SizeField::inverse_boundary_area(const Plc& plc) const {
-  double sum = 0;
-  const int deepest = impl_->constant ? 0 : 8;
-  for (const auto& [a, b, c] : plc.triangles)
-    sum += inverse_area([&](const Vec3& p) { return at(p); }, plc.points[a], plc.points[b], plc.points[c],
-                        deepest);
-  return sum;
 }
 
 SizeField::~SizeField() = default;

@@ -60,7 +60,6 @@ class SizeField {
   const std::vector<std::string>& warnings() const;
 
  private:
-  double inverse_boundary_area(const Plc& plc) const;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -55,10 +55,11 @@ class Clusters {
 
 class Absorber {
  public:
-  Absorber(const Plc& plc, const Geometry& geometry, const Tolerance& tolerance)
+  Absorber(const Plc& plc, const Geometry& geometry, const Tolerance& tolerance, Context& context)
       : given_(plc),
         plc_(plc),
         tolerance_(tolerance),
+        context_(context),
         features_(find_small_features(plc_, geometry, tolerance)) {}
 
   Plc run(Absorbed& absorbed) {
@@ -81,7 +82,7 @@ class Absorber {
     } while (followers_.size() > followed || reject());  // nothing is rejected before more have followed
     Plc result = make_plc();
     try {
-      check_plc(result);
+      check_plc(result, context_);
     } catch (const Failure&) {
       return given_;  // a body smaller than the tolerance, say
     }
@@ -332,9 +333,9 @@ class Absorber {
   void check_crossings() {
     std::vector<std::array<Index, 2>> before;
     bool looked = false;
-    for (const auto& [s, t] : find_crossings(plc_.points, triangles_)) {
+    for (const auto& [s, t] : find_crossings(plc_.points, triangles_, context_)) {
       if (!moved(s) && !moved(t)) continue;
-      if (!looked) before = find_crossings(plc_.points, plc_.triangles);
+      if (!looked) before = find_crossings(plc_.points, plc_.triangles, context_);
       looked = true;
       const std::array<Index, 2> pair{std::min(source_[s], source_[t]), std::max(source_[s], source_[t])};
       if (std::binary_search(before.begin(), before.end(), pair)) continue;
@@ -439,6 +440,7 @@ class Absorber {
   const Plc& given_;
   Plc plc_;  // with divided segments
   const Tolerance& tolerance_;
+  Context& context_;
   std::vector<SmallFeature> features_;
   std::vector<double> width_;               // by feature
   std::vector<char> active_;                // by feature
@@ -466,7 +468,7 @@ Plc absorb_small_features(const Plc& plc, const Geometry& geometry, SizeOptions 
   const SizeField given(plc, geometry, sizes, context);
   const double most = sizes.min_size > 0 ? sizes.min_size : HUGE_VAL;
   const Tolerance tolerance = [&](const Vec3& p) { return std::min(most, kAbsorbed * given.at(p)); };
-  return Absorber(plc, geometry, tolerance).run(absorbed);
+  return Absorber(plc, geometry, tolerance, context).run(absorbed);
 }
 
 }  // namespace dm

@@ -11,9 +11,11 @@ constexpr double kRounding = 1e-14;  // of an orientation, over the product of t
 
 class CrossingSearch {
  public:
-  CrossingSearch(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, std::size_t most)
+  CrossingSearch(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, Context& context,
+                 std::size_t most)
       : points_(points),
         triangles_(triangles),
+        context_(context),
         most_(most),
         boxes_(triangles.size()),
         normals_(triangles.size()) {
@@ -29,6 +31,7 @@ class CrossingSearch {
     if (tree.empty()) return {};
     std::vector<std::array<Index, 2>> stack{{0, 0}};
     while (!stack.empty() && pairs_.size() < most_) {
+      context_.tick(0);
       const auto [i, j] = stack.back();
       stack.pop_back();
       const BoxTree::Node &a = tree.nodes()[i], &b = tree.nodes()[j];
@@ -137,6 +140,7 @@ class CrossingSearch {
 
   const std::vector<Vec3>& points_;
   const std::vector<Triangle>& triangles_;
+  Context& context_;
   const std::size_t most_;
   std::vector<Box> boxes_;
   std::vector<Vec3> normals_;
@@ -146,8 +150,9 @@ class CrossingSearch {
 }  // namespace
 
 std::vector<std::array<Index, 2>> find_crossings(const std::vector<Vec3>& points,
-                                                 const std::vector<Triangle>& triangles, std::size_t most) {
-  return CrossingSearch(points, triangles, most).run();
+                                                 const std::vector<Triangle>& triangles, Context& context,
+                                                 std::size_t most) {
+  return CrossingSearch(points, triangles, context, most).run();
 }
 
 }  // namespace dm

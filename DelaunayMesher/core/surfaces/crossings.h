@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "base/context.h"
 #include "base/vec3.h"
 
 namespace dm {
@@ -19,7 +20,7 @@ constexpr std::size_t kMostCrossings = 16;
 // that share an edge or merely touch do not count.  The search ends when it has found `most`: a surface that
 // crosses itself everywhere has a quadratic number of them.
 std::vector<std::array<Index, 2>> find_crossings(const std::vector<Vec3>& points,
-                                                 const std::vector<Triangle>& triangles,
+                                                 const std::vector<Triangle>& triangles, Context& context,
                                                  std::size_t most = SIZE_MAX);
 
 }  // namespace dm

@@ -185,10 +185,11 @@ std::vector<Index> triangles_at_repeated_points(const SurfaceMesh& mesh) {
 
 }  // namespace
 
-std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths) {
+std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths,
+                                          Context& context) {
   std::vector<std::array<Index, 3>> crossing;  // triangle; 0 if the other is of its own face; other's face
   for (const auto& [i, j] :
-       find_crossings(mesh.points, mesh.triangles, kMostCrossings * mesh.triangles.size())) {
+       find_crossings(mesh.points, mesh.triangles, context, kMostCrossings * mesh.triangles.size())) {
     const Index f = mesh.triangle_face[i], g = mesh.triangle_face[j];
     crossing.push_back({i, f != g, g});
     crossing.push_back({j, f != g, f});

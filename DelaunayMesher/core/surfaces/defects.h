@@ -19,7 +19,8 @@ struct Defect {
 // Triangles that cross another one (every one of them, with half the length wanted there), and those at
 // points that lie on the same place; not all of them when there are many times more crossings than triangles.
 // Cost: find_crossings.
-std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths);
+std::vector<Defect> find_crossing_defects(const SurfaceMesh& mesh, const LengthField& lengths,
+                                          Context& context);
 
 // Triangles with an angle under 20 degrees between curves closer together than the wanted length, or opposite
 // a segment of a CAD edge.  Not where the curves meet at such an angle in the tip of a wedge or needle of a

@@ -191,7 +191,7 @@ class SurfaceMesher {
         if (!crosses_in_tessellation(d.face)) lengths_.add_cap(d.place, d.length);
     std::vector<Box> changed = lengths_.apply_caps();
     if (changed.empty()) {  // crossings cost more to find: only when nothing else is to be done
-      repair_crossings(find_crossing_defects(mesh, lengths_));
+      repair_crossings(find_crossing_defects(mesh, lengths_, context_));
       changed = lengths_.apply_caps();
     }
     redo_in(changed);
@@ -254,7 +254,7 @@ class SurfaceMesher {
   void check_input() {
     input_crosses_.assign(face_count(), 0);
     const std::size_t most = kMostCrossings * plc_.triangles.size();
-    const auto pairs = find_crossings(plc_.points, plc_.triangles, most);
+    const auto pairs = find_crossings(plc_.points, plc_.triangles, context_, most);
     for (const auto& pair : pairs)
       for (const Index t : pair) input_crosses_[plc_.triangle_face[t]] = 1;
     if (pairs.size() < most) return;

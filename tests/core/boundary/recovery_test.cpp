@@ -211,11 +211,12 @@ TEST_CASE("corner_in_front agrees with the sign of the volume") {
 TEST_CASE("find_crossings: proper crossings only") {
   const std::vector<Vec3> p = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1},
                                {2, 1, 1}, {0, 0, 5}, {4, 0, 5}, {4, 4, 0}};
-  CHECK(find_crossings(p, {{0, 1, 2}, {3, 4, 5}}).size() == 1);
-  CHECK(find_crossings(p, {{0, 1, 2}, {0, 1, 6}}).empty());      // a shared edge
-  CHECK(find_crossings(p, {{0, 1, 2}, {4, 5, 6}}).empty());      // apart
-  CHECK(find_crossings(p, {{0, 1, 2}, {1, 2, 8}}).empty());      // coplanar neighbours
-  CHECK(find_crossings(p, {{0, 3, 4}, {0, 1, 2}}).size() == 1);  // through, from a shared corner
+  Context context;
+  CHECK(find_crossings(p, {{0, 1, 2}, {3, 4, 5}}, context).size() == 1);
+  CHECK(find_crossings(p, {{0, 1, 2}, {0, 1, 6}}, context).empty());      // a shared edge
+  CHECK(find_crossings(p, {{0, 1, 2}, {4, 5, 6}}, context).empty());      // apart
+  CHECK(find_crossings(p, {{0, 1, 2}, {1, 2, 8}}, context).empty());      // coplanar neighbours
+  CHECK(find_crossings(p, {{0, 3, 4}, {0, 1, 2}}, context).size() == 1);  // through, from a shared corner
 }
 
 namespace {

@@ -311,14 +311,26 @@ TEST_CASE("rounded midpoints, coplanar with many others, can be inserted") {
   t.check();
 }
 
+TEST_CASE("a triangulation can be cancelled, on every number of threads") {
+  const Points points = uniform(3000, 16);
+  for (const int threads : {1, 2, 3})
+    for (const Index from : {1, 100000}) {
+      Context context([](const char*, double) { return false; });
+      context.threads = threads;
+      CHECK_THROWS_AS(Triangulation(points, context, from), Cancelled);
+    }
+}
+
 TEST_CASE("the number of threads does not change a byte") {
   for (const Points& points : {uniform(scaled(100000), 15), grid(scaled(24)), cylinder(60, scaled(200))}) {
     const Index from = static_cast<Index>(points.size() / 100);
-    const Triangulation one(points, 1, from);
+    Context context;
+    const Triangulation one(points, context, from);
     one.check();
     CHECK(tets_of(one) == tets_of(Triangulation(points)));
     for (const int threads : {2, 3, 8}) {
-      const Triangulation many(points, threads, from);
+      context.threads = threads;
+      const Triangulation many(points, context, from);
       REQUIRE(one.slot_count() == many.slot_count());
       bool same = true;
       for (Index i = 0; i < one.slot_count(); ++i) {

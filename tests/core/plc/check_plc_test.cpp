@@ -18,7 +18,8 @@ struct Found {
 
 Found defect(const Plc& plc) {
   try {
-    check_plc(plc);
+    Context context;
+    check_plc(plc, context);
   } catch (const Failure& failure) {
     CHECK(failure.stage == "plc");
     return {failure.code, failure.what(), failure.entity, failure.other, failure.place};
@@ -196,6 +197,11 @@ TEST_CASE("solids") {
   CHECK(defect(plc).code == "empty_solid");
   ++plc.solid_count;
   CHECK(defect(plc).code == "too_many_solids");
+}
+
+TEST_CASE("checking can be cancelled") {
+  Context context([](const char*, double) { return false; });
+  CHECK_THROWS_AS(check_plc(box(), context), Cancelled);
 }
 
 TEST_CASE("zero volume") {

@@ -92,7 +92,9 @@ TEST_CASE("refine: target angle, size and exact Delaunay property on every shape
     CHECK(r.report.constrained == 0);
     const VolumeMesh m = extract_volume_mesh(r.mesh);
     CHECK(smallest_angle(m) >= 20);
-    CHECK(certify(m, r.plc.face_solids, r.size, 20).empty());
+    CHECK(certify(m, r.plc.face_solids, r.size, 20, r.context).empty());
+    Context cancelled([](const char*, double) { return false; });
+    CHECK_THROWS_AS(certify(m, r.plc.face_solids, r.size, 20, cancelled), Cancelled);
     const auto edges = relative_edges(m, r.size);
     CHECK(edges[edges.size() / 2] > 0.85);
     CHECK(edges[edges.size() / 2] < 1.1);

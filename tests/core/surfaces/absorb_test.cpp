@@ -197,15 +197,15 @@ struct Result {
 
   explicit Result(const Shape& shape, double max_size, double min_size = 0,
                   std::vector<double> face_size = {}) {
-    check_plc(shape.plc);
-    const Geometry geometry(shape.plc, shape.records);
     Context context;
+    check_plc(shape.plc, context);
+    const Geometry geometry(shape.plc, shape.records);
     SizeOptions sizes;
     sizes.max_size = max_size;
     sizes.min_size = min_size;
     sizes.face_size = std::move(face_size);
     plc = absorb_small_features(shape.plc, geometry, sizes, context, absorbed);
-    check_plc(plc);
+    check_plc(plc, context);
     const SizeField field(plc, geometry, sizes, context);
     mesh = mesh_surfaces(plc, geometry, field, {}, context);
     check_surface_mesh(mesh, plc, geometry);
@@ -275,7 +275,8 @@ TEST_CASE(
       CHECK(r.absorbed.faces == std::vector<Index>{1});
       CHECK(r.absorbed.edges == std::vector<Index>{2});
       CHECK(r.smallest_angle > 20);
-      CHECK(find_crossings(r.mesh.points, r.mesh.triangles).empty());
+      Context context;
+      CHECK(find_crossings(r.mesh.points, r.mesh.triangles, context).empty());
     }
 }
 

@@ -20,6 +20,13 @@ bool edge_hits(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const
          dot(n, area_vector(c, a, x)) > 0;
 }
 
+std::vector<std::array<Index, 2>> crossings(const std::vector<Vec3>& points,
+                                            const std::vector<Triangle>& triangles,
+                                            std::size_t most = SIZE_MAX) {
+  Context context;
+  return find_crossings(points, triangles, context, most);
+}
+
 }  // namespace
 
 TEST_CASE("crossing triangles: the same pairs as by testing all") {
@@ -43,7 +50,7 @@ TEST_CASE("crossing triangles: the same pairs as by testing all") {
       if (cross_each_other) expected.push_back({s, t});
     }
   CHECK(expected.size() > 5);
-  CHECK(find_crossings(points, triangles) == expected);
+  CHECK(crossings(points, triangles) == expected);
 }
 
 TEST_CASE("triangles that overlap in a common plane cross") {
@@ -66,7 +73,7 @@ TEST_CASE("triangles that overlap in a common plane cross") {
     return dot(n, area_vector(a, b, x)) > 0 && dot(n, area_vector(b, c, x)) > 0 &&
            dot(n, area_vector(c, a, x)) > 0;
   };
-  const auto found = find_crossings(points, triangles);
+  const auto found = crossings(points, triangles);
   Index sampled = 0;
   for (Index s = 0; s < 60; ++s)
     for (Index t = s + 1; t < 60; ++t) {
@@ -90,14 +97,13 @@ TEST_CASE("triangles that overlap in a common plane cross") {
 TEST_CASE("contacts are no crossings") {
   const std::vector<Vec3> points{{0, 0, 0},     {2, 0, 0}, {0, 2, 0}, {0, 0, 1},
                                  {0.5, 0.5, 0}, {1, 1, 1}, {0, 1, 1}};
-  CHECK(find_crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());  // a common edge
-  CHECK(find_crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());  // a common corner
-  CHECK(find_crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());  // a corner in the other's inside
+  CHECK(crossings(points, {{0, 1, 2}, {0, 1, 3}}).empty());  // a common edge
+  CHECK(crossings(points, {{0, 1, 2}, {0, 3, 6}}).empty());  // a common corner
+  CHECK(crossings(points, {{0, 1, 2}, {4, 5, 6}}).empty());  // a corner in the other's inside
   const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0},  {0, 1, 0},
                                  {2, 0, 0}, {2, 1, 0}, {0.5, 0, 0}};
-  CHECK(
-      find_crossings(square, {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}).empty());  // neighbours in a plane
-  CHECK(find_crossings({}, {}).empty());
+  CHECK(crossings(square, {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}).empty());  // neighbours in a plane
+  CHECK(crossings({}, {}).empty());
 }
 
 TEST_CASE("crossing triangles: the search ends at the wanted number") {
@@ -109,8 +115,15 @@ TEST_CASE("crossing triangles: the search ends at the wanted number") {
     for (const Vec3& p : {low - across, low + across, Vec3{0, 0, 1 + 0.01 * t}}) points.push_back(p);
     triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
-  CHECK(find_crossings(points, triangles).size() > 4000);
-  const auto some = find_crossings(points, triangles, 500);
+  CHECK(crossings(points, triangles).size() > 4000);
+  const auto some = crossings(points, triangles, 500);
   CHECK(some.size() >= 500);
   CHECK(some.size() < 600);
+}
+
+TEST_CASE("crossing triangles: the search can be cancelled") {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<Triangle> triangles(500, {0, 1, 2});
+  Context context([](const char*, double) { return false; });
+  CHECK_THROWS_AS(find_crossings(points, triangles, context), Cancelled);
 }

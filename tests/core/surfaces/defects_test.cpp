@@ -26,14 +26,14 @@ struct BoxLengths {
 }  // namespace
 
 TEST_CASE("two points of a face on the same place count as a face that crosses itself") {
-  const BoxLengths box;
+  BoxLengths box;
   SurfaceMesh mesh;
   mesh.points = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0},
                  {0, -1, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
   mesh.point_entity.assign(9, {2, 0});
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   mesh.triangle_face = {0, 0, 1};
-  const auto found = find_crossing_defects(mesh, box.lengths);
+  const auto found = find_crossing_defects(mesh, box.lengths, box.context);
   REQUIRE(found.size() == 2);
   for (const Defect& d : found) {
     CHECK(d.face == 0);

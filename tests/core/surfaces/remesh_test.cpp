@@ -57,7 +57,7 @@ struct Run {
         context(make_context(threads)),
         size(shape.plc, geometry, options, context),
         mesh(mesh_surfaces(shape.plc, geometry, size, {}, context)) {
-    check_plc(shape.plc);
+    check_plc(shape.plc, context);
     check_surface_mesh(mesh, shape.plc, geometry);
   }
 };
