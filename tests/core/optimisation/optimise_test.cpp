@@ -124,11 +124,7 @@ TEST_CASE("two solids keep the faces between them") {
 
 // Without rescues the smallest angle is 24.6 degrees here.
 TEST_CASE("a flattened box, poor everywhere, gets good angles") {
-  auto s = sample::box(4, 0.2, 5);
-  for (Vec3& p : s.mesh.points) p.z *= 0.5;
-  s.records.faces[5].origin.z = 2;
-  for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.5;
-  s.plc = sample::boundary_plc(s.mesh, 6, 12);
+  auto s = sample::slab(4, 0.5, 5);
   Context context;
   const auto report = run(s, context);
   CHECK(report.rescued > 0);
@@ -141,11 +137,7 @@ TEST_CASE("a flattened box, poor everywhere, gets good angles") {
 TEST_CASE("slabs far thinner than their elements get the several points that they need") {
   int good = 0;
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
-    auto s = sample::box(4, 0.2, seed);
-    for (Vec3& p : s.mesh.points) p.z *= 0.25;
-    s.records.faces[5].origin.z = 1;
-    for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.25;
-    s.plc = sample::boundary_plc(s.mesh, 6, 12);
+    auto s = sample::slab(4, 0.25, seed);
     Context context;
     const auto report = run(s, context);
     good += report.min_after > 20 && report.max_after < 142;
@@ -156,11 +148,7 @@ TEST_CASE("slabs far thinner than their elements get the several points that the
 TEST_CASE("a rescue beside an element that is as bad and stays counts") {
   double share = 0;
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
-    auto s = sample::box(8, 0.2, seed);
-    for (Vec3& p : s.mesh.points) p.z *= 0.4;
-    s.records.faces[5].origin.z = 3.2;
-    for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.4;
-    s.plc = sample::boundary_plc(s.mesh, 6, 12);
+    auto s = sample::slab(8, 0.4, seed);
     Context context;
     run(s, context);
     share += share_below_30(s.mesh) / 15;
@@ -172,11 +160,7 @@ TEST_CASE("a rescue beside an element that is as bad and stays counts") {
 TEST_CASE("elements that no step of smoothing betters are bettered by shifts") {
   int good = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    auto s = sample::box(6, 0.2, seed);
-    for (Vec3& p : s.mesh.points) p.z *= 0.5;
-    s.records.faces[5].origin.z = 3;
-    for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.5;
-    s.plc = sample::boundary_plc(s.mesh, 6, 12);
+    auto s = sample::slab(6, 0.5, seed);
     Context context;
     const auto report = run(s, context);
     good += report.min_after > 29.99;
@@ -185,11 +169,7 @@ TEST_CASE("elements that no step of smoothing betters are bettered by shifts") {
 }
 
 TEST_CASE("large walls get the rescues that small ones get, because those that help earn more") {
-  auto s = sample::box(20, 0.2, 3);
-  for (Vec3& p : s.mesh.points) p.z *= 0.15;
-  s.records.faces[5].origin.z *= 0.15;
-  for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.15;
-  s.plc = sample::boundary_plc(s.mesh, 6, 12);
+  auto s = sample::slab(20, 0.15, 3);
   Context context;
   const auto report = run(s, context);
   CHECK(report.min_after > 25);           // it was 20.5

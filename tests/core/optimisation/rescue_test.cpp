@@ -34,16 +34,6 @@ void check(const sample::Sample& s, const Geometry& geometry) {
   check_on_geometry(s.mesh, geometry, 1e-9);
 }
 
-// A box flattened to half its height or less: the angles are poor everywhere.
-sample::Sample slab(double part = 0.5) {
-  auto s = sample::box(4, 0.2, 5);
-  for (Vec3& p : s.mesh.points) p.z *= part;
-  s.records.faces[5].origin.z *= part;
-  for (CurveRecord& edge : s.records.edges) edge.origin.z *= part;
-  s.plc = sample::boundary_plc(s.mesh, 6, 12);
-  return s;
-}
-
 bool is_on_boundary(const Entity& e) { return e.dimension < 3; }
 
 }  // namespace
@@ -172,7 +162,7 @@ TEST_CASE("a trial that is taken back leaves every byte as it was") {
 }
 
 TEST_CASE("poor elements are rescued, none that a rescue touches gets worse") {
-  auto s = slab();
+  auto s = sample::slab(4, 0.5, 5);
   Tools tools(s);
   const auto count_poor = [&] {
     int count = 0;
@@ -217,11 +207,7 @@ TEST_CASE("edges from side to side through a wall are divided inside it") {
 
 // Elements of more than 166 degrees were refused as flat: a needle of a boundary edge has no others at first.
 TEST_CASE("a point may be put where new elements are nearly flat at first, not flat") {
-  auto s = slab();
-  for (Vec3& p : s.mesh.points) p.z *= 0.2;
-  s.records.faces[5].origin.z *= 0.2;
-  for (CurveRecord& edge : s.records.edges) edge.origin.z *= 0.2;
-  s.plc = sample::boundary_plc(s.mesh, 6, 12);
+  auto s = sample::slab(4, 0.1, 5);
   Tools tools(s);
   AngleCosines all;
   for (Index t = 0; t < tools.edit.slot_count(); ++t) {
@@ -286,7 +272,7 @@ TEST_CASE("the clock tells whose neighbourhood has changed, by trials only when 
 }
 
 TEST_CASE("a rescue that failed is not tried again until something beside it has changed") {
-  auto s = slab(0.15);
+  auto s = sample::slab(4, 0.15, 5);
   Tools tools(s);
   Index stuck = -1;
   for (Index t = 0; stuck < 0 && t < tools.edit.slot_count(); ++t)

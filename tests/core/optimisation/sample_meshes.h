@@ -185,6 +185,16 @@ inline Sample box(Index n, double noise, std::uint64_t seed = 1) {
   return s;
 }
 
+// A box flattened to a part of its height: the angles are poor everywhere.
+inline Sample slab(Index n, double part, std::uint64_t seed) {
+  Sample s = box(n, 0.2, seed);
+  for (Vec3& p : s.mesh.points) p.z *= part;
+  s.records.faces[5].origin.z *= part;
+  for (CurveRecord& edge : s.records.edges) edge.origin.z *= part;
+  s.plc = boundary_plc(s.mesh, 6, 12);
+  return s;
+}
+
 // box(4) as two solids that share CAD face 6 at x = 2.
 inline Sample two_boxes(double noise, std::uint64_t seed) {
   auto s = box(4, noise, seed);
