@@ -25,8 +25,8 @@ def write_inp(path, mesh):
                 write_set(file, "*ELSET, ELSET=" + name, rows)
             else:
                 write_set(file, "*NSET, NSET=" + name, np.unique(cells[kind][rows]))
-        for name, point in mesh.vertex_points().items():
-            write_set(file, "*NSET, NSET=" + name, np.array([point]))
+        for name, points in mesh.vertex_points().items():
+            write_set(file, "*NSET, NSET=" + name, points)
 
 
 def write_set(file, head, rows):

@@ -76,13 +76,17 @@ class Mesh:
         return np.flatnonzero((self.point_dimension == 0) & (self.point_entity == index))
 
     def vertex_points(self):
-        """{'Vertex1': number of its point, ...} of all CAD vertices that have one."""
+        """{'Vertex1': numbers of its points (n,), ...} of all CAD vertices that have any; several where
+        solids were meshed apart.
+        """
         points = np.flatnonzero(self.point_dimension == 0)
-        found = dict(zip(self.point_entity[points].tolist(), points.tolist()))
+        points = points[np.argsort(self.point_entity[points], kind="stable")]
+        owners, starts = np.unique(self.point_entity[points], return_index=True)
+        found = dict(zip(owners.tolist(), np.split(points, starts[1:])))
         for dropped, kept in self.aliases.get("Vertex", {}).items():
             if kept in found:
                 found[dropped] = found[kept]
-        return {"Vertex%d" % (index + 1): point for index, point in found.items()}
+        return {"Vertex%d" % (index + 1): rows for index, rows in found.items()}
 
     def element_rows(self):
         """{'Edge1': ('Edge', rows (n,) of lines), 'Face3': ('Face', of triangles), 'Solid1': ('Volume', of

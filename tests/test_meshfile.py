@@ -156,6 +156,12 @@ def test_permissions_are_asked_for_before_meshing(tmp_path, monkeypatch, ending)
         meshfile.check_output(tmp_path / "folder.vtu")
 
 
+def test_a_vertex_of_solids_meshed_apart_keeps_all_its_points():
+    mesh = two_tets(1)
+    mesh.point_dimension[[0, 3]], mesh.point_entity[[0, 3]] = 0, 7
+    assert mesh.vertex_points()["Vertex8"].tolist() == mesh.nodes_of("Vertex8").tolist() == [0, 3]
+
+
 def test_nodes_of_elements():
     mesh = two_tets(2)
     assert mesh.nodes_of("Edge1").tolist() == sorted(mesh.lines[0])
