@@ -80,9 +80,7 @@ class Mesh:
         solids were meshed apart.
         """
         points = np.flatnonzero(self.point_dimension == 0)
-        points = points[np.argsort(self.point_entity[points], kind="stable")]
-        owners, starts = np.unique(self.point_entity[points], return_index=True)
-        found = dict(zip(owners.tolist(), np.split(points, starts[1:])))
+        found = {index: points[rows] for index, rows in rows_by_owner(self.point_entity[points])}
         for dropped, kept in self.aliases.get("Vertex", {}).items():
             if kept in found:
                 found[dropped] = found[kept]
@@ -100,9 +98,7 @@ class Mesh:
             ("Face", "Face", self.triangle_face, 1),
             ("Solid", "Volume", self.tet_solid, 0),
         ):
-            order = np.argsort(owner, kind="stable")
-            owners, starts = np.unique(owner[order], return_index=True)
-            for index, rows in zip(owners.tolist(), np.split(order, starts[1:])):
+            for index, rows in rows_by_owner(owner):
                 if index + offset > 0:
                     found["%s%d" % (prefix, index + offset)] = (kind, rows)
         for prefix in ("Face", "Edge"):
@@ -123,6 +119,13 @@ class Mesh:
         from .report import mesh_report
 
         return mesh_report(self)
+
+
+def rows_by_owner(owner):
+    """(owner, its rows (n,) in order) for each number that occurs in `owner` (m,)."""
+    order = np.argsort(owner, kind="stable")
+    owners, starts = np.unique(owner[order], return_index=True)
+    return zip(owners.tolist(), np.split(order, starts[1:]))
 
 
 def mesh_from_core(result, options, warnings=()):
