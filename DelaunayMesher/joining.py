@@ -52,6 +52,12 @@ def joined_aliases(plcs):
     return joined
 
 
+def element_counts(plcs):
+    """{'Vertex', 'Edge', 'Face', 'Solid': how many the part has} of which these are all PLCs."""
+    counts = [plc.element_counts for plc in plcs]
+    return {kind: max(count[kind] for count in counts) for kind in counts[0]}
+
+
 def totals(tables):
     """{name: sum} over several lists of (name, number)."""
     sums = {}

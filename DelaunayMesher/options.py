@@ -10,8 +10,9 @@ import os
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Optional, Tuple
 
+from .cad_names import parse_name
 from .errors import refusal
-from .sizing import Region, parse_name
+from .sizing import Region
 
 MAX_AUTOMATIC_THREADS = 8
 

@@ -48,7 +48,7 @@ def run(source, options=None, report=None, keep=()):
         result, warnings = mesh_all(core, plcs, converted, options, report)
     except MemoryError:
         raise MeshError("refinement", "out_of_memory", "the memory is full; use a larger size") from None
-    mesh = mesh_from_core(result, options, notes + warnings)
+    mesh = mesh_from_core(result, options, joining.element_counts(plcs), notes + warnings)
     mesh.total_seconds = time.perf_counter() - start
     mesh.seconds = _joined(seconds, mesh.seconds)
     mesh.shape = shape

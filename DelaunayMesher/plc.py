@@ -43,7 +43,7 @@ class Plc:
     cad_solid_count: int = 0  # and how many there are
     kept_faces: Any = ()  # that loads or groups refer to: never absorbed, however small
     kept_edges: Any = ()
-    aliases: Dict[str, Dict[int, int]] = field(default_factory=dict)  # see carrier()
+    aliases: Dict[str, Dict[int, int]] = field(default_factory=dict)  # see cad_names.carrier()
 
     _SHAPES = (
         ("points", np.float64, (-1, 3)),
@@ -108,11 +108,15 @@ class Plc:
             if len(getattr(self, name)) != len(getattr(self, owner)):
                 raise MeshError("plc", "bad_array", "%s and %s differ in length" % (name, owner))
 
-    def carrier(self, kind, number):
-        """The 'Face', 'Edge' or 'Vertex' that stands for this one (0-based): itself, or the one of another
-        solid at the same place into which it was merged.
-        """
-        return self.aliases.get(kind, {}).get(number, number)
+    @property
+    def element_counts(self):
+        """{'Vertex', 'Edge', 'Face', 'Solid': how many the whole part has}"""
+        return {
+            "Vertex": self.vertex_count,
+            "Edge": self.edge_count,
+            "Face": len(self.face_solids),
+            "Solid": self.cad_solid_count or self.solid_count,
+        }
 
     def volume(self, solid):
         """Volume of one solid (1-based) in mm3, from its triangles."""

@@ -5,6 +5,7 @@ from typing import Any, Dict, List
 
 import numpy as np
 
+from .cad_names import carrier
 from .errors import entity_name
 
 
@@ -17,6 +18,7 @@ class Mesh:
     order with tet_solid (t,); triangles (b, 3 | 6) of boundary and interfaces with triangle_face (b,);
     lines (l, 2 | 3) with line_edge (l,). below_target: elements under the target angle as dicts of tet,
     angle, reason, entity, place. straightened: tetrahedra whose curved boundary edge had to stay straight.
+    element_counts: 'Vertex', 'Edge', 'Face', 'Solid' -> how many the part has, with and without nodes.
     seconds: stage -> time, in order. aliases: 'Face', 'Edge', 'Vertex' -> {number: that of the one at the
     same place that has its elements}, where solids touch.
     """
@@ -33,6 +35,7 @@ class Mesh:
     straightened: Any
     below_target: List[Dict[str, Any]]
     options: Any
+    element_counts: Dict[str, int]
     seconds: Dict[str, float] = field(default_factory=dict)
     statistics: Dict[str, float] = field(default_factory=dict)
     warnings: List[str] = field(default_factory=list)
@@ -62,13 +65,13 @@ class Mesh:
         return self._quality
 
     def nodes_of(self, name):
-        """Sorted numbers of the points on 'Face3', 'Edge1', 'Vertex2' (mid-side nodes too) or in 'Solid1'."""
-        from .sizing import parse_name
+        """Sorted numbers of the points on 'Face3', 'Edge1', 'Vertex2' (mid-side nodes too) or in 'Solid1'.
 
-        kind, number = parse_name(name)
+        Empty for an element that was absorbed; raises InputError for one that the part does not have.
+        """
+        kind, index = carrier(name, self.element_counts, self.aliases)
         if kind == "Solid":
-            return np.unique(self.tets[self.tet_solid == number])
-        index = self.aliases.get(kind, {}).get(number - 1, number - 1)
+            return np.unique(self.tets[self.tet_solid == index + 1])
         if kind == "Face":
             return np.unique(self.triangles[self.triangle_face == index])
         if kind == "Edge":
@@ -128,7 +131,7 @@ def rows_by_owner(owner):
     return zip(owners.tolist(), np.split(order, starts[1:]))
 
 
-def mesh_from_core(result, options, warnings=()):
+def mesh_from_core(result, options, element_counts, warnings=()):
     """Mesh from the dict that _core.mesh returns."""
     below = result["below_target"]
     items = [
@@ -162,6 +165,7 @@ def mesh_from_core(result, options, warnings=()):
         **{name: result[name] for name in (*arrays, "line_edge", "straightened")},
         below_target=items,
         options=options,
+        element_counts=element_counts,
         seconds=dict(result["seconds"]),
         statistics=dict(result["statistics"]),
         warnings=[*warnings, *result["warnings"]],

@@ -4,17 +4,15 @@ Lengths in mm. A size is the wanted edge length of the elements; the smallest of
 """
 
 import math
-import re
 from dataclasses import dataclass
 from typing import Tuple
 
 import numpy as np
 
+from .cad_names import carrier
 from .errors import refusal
 
 AUTOMATIC_FRACTION = 20  # of the diagonal; Gmsh's default of 10 is too coarse for stresses
-
-_NAME = re.compile(r"^(Vertex|Edge|Face|Solid)([1-9][0-9]*)$")
 
 
 @dataclass(frozen=True)
@@ -63,43 +61,15 @@ class Region:
         return [self.KINDS.index(self.kind), *self.a, *self.b, self.radius, self.size, self.transition]
 
 
-def parse_name(name):
-    """('Face', 3) for 'Face3'; raises InputError for anything that is not a CAD element's name."""
-    match = _NAME.match(name)
-    if not match:
-        raise refusal(
-            "%r is no name of a CAD element; use VertexN, EdgeN, FaceN or SolidN" % name, "unknown_name"
-        )
-    return match.group(1), int(match.group(2))
-
-
 def sizes_by_name(sizes, plc):
     """Arrays of sizes for the core from {'Face3': 0.5, ...}; infinity where none is given."""
-    counts = {
-        "Face": len(plc.face_solids),
-        "Edge": plc.edge_count,
-        "Vertex": plc.vertex_count,
-        "Solid": plc.cad_solid_count or plc.solid_count,
-    }
-    arrays = {kind: np.full(count, np.inf) for kind, count in counts.items()}
+    arrays = {kind: np.full(count, np.inf) for kind, count in plc.element_counts.items()}
     for name, size in sizes.items():
-        kind, number = parse_name(name)
-        if number > counts[kind]:
-            raise refusal(
-                "there is no %s: the part has %d %s" % (name, counts[kind], _plural(kind, counts[kind])),
-                "unknown_name",
-                name,
-            )
-        row = plc.carrier(kind, number - 1)
+        kind, row = carrier(name, plc.element_counts, plc.aliases)
         arrays[kind][row] = min(size, arrays[kind][row])
     if plc.solid_numbers is not None:
         arrays["Solid"] = arrays["Solid"][plc.solid_numbers - 1]
     return {kind.lower() + "_size": array for kind, array in arrays.items()}
-
-
-def _plural(kind, count):
-    word = {"Vertex": "vertices"}.get(kind, kind.lower() + "s")
-    return kind.lower() if count == 1 else word
 
 
 def diagonal(points):

@@ -109,7 +109,15 @@ def test_sizes_by_name_region_and_points():
 def test_unknown_name():
     with pytest.raises(InputError) as caught:
         DelaunayMesher.mesh(box(), sizes={"Face7": 0.1})
-    assert caught.value.entity == "Face7" and "6 faces" in str(caught.value)
+    assert caught.value.entity == "Face7" and "Face1 to Face6" in str(caught.value)
+
+
+def test_names_count_on_over_pieces_that_cross():
+    mesh = DelaunayMesher.mesh(joined(box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))), max_size=0.5)
+    assert len(mesh.nodes_of("Face12")) and len(mesh.nodes_of("Solid2"))
+    for name in ("Face13", "Edge25", "Vertex17", "Solid3"):
+        with pytest.raises(InputError, match="there is no " + name):
+            mesh.nodes_of(name)
 
 
 def test_too_many_elements():

@@ -48,6 +48,7 @@ def two_tets(order):
         straightened=np.zeros(0, np.int32),
         below_target=[],
         options=MeshOptions(order=order),
+        element_counts={"Vertex": 20, "Edge": 1, "Face": 6, "Solid": 2},
     )
 
 
@@ -168,8 +169,16 @@ def test_nodes_of_elements():
     assert mesh.nodes_of("Face1").tolist() == sorted(mesh.triangles[0])
     assert mesh.nodes_of("Solid2").tolist() == sorted(mesh.tets[1])
     assert mesh.nodes_of("Vertex3").tolist() == [2]
-    with pytest.raises(InputError):
-        mesh.nodes_of("Nose1")
+    assert len(mesh.nodes_of("Vertex20")) == 0  # absorbed, say
+    for name, words in (
+        ("Nose1", "no name of a CAD element"),
+        ("Face7", "Face1 to Face6"),
+        ("Edge2", "only Edge1"),
+        ("Solid3", "Solid1 to Solid2"),
+    ):
+        with pytest.raises(InputError, match=words) as caught:
+            mesh.nodes_of(name)
+        assert name in str(caught.value)
 
 
 def test_vtu_is_written_in_pieces(tmp_path):

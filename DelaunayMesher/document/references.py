@@ -6,8 +6,8 @@ They may refer to another object than the meshed one (the box inside a cut, a bo
 then looked for by its geometry.
 """
 
+from ..cad_names import parse_name
 from ..errors import InputError
-from ..sizing import parse_name
 from .placement import own_shape, placement_in_mesh
 
 REFINEMENT_LISTS = ("MeshRegionList", "MeshRefinementList")  # up to FreeCAD 1.1, and later
