@@ -76,6 +76,11 @@ class MeshCancelled(MeshError):
         super().__init__(stage, code, message, place, entity, other)
 
 
+def incomplete_file():
+    """The OSError for a file that is not whole, though its writer noticed no failure."""
+    return OSError("the file could not be completed; is the disk full?")
+
+
 def refusal(message, code="bad_option", entity=None):
     """The InputError for an option that makes no sense."""
     return InputError("options", code, message, entity=entity)

@@ -6,7 +6,7 @@ import tempfile
 import numpy as np
 
 from .cadprocess import ending_of
-from .errors import InputError, MeshError
+from .errors import InputError, MeshError, incomplete_file
 from .inpfile import write_inp
 from .surfacefile import import_meshio
 from .vtufile import write_vtu
@@ -25,7 +25,7 @@ def write_by_freecad(path, mesh):
 
     document.fem_mesh(mesh).write(path)
     if ending_of(path) == ".med" and not is_whole_hdf5(path):
-        raise OSError("the file could not be completed; is the disk full?")
+        raise incomplete_file()
 
 
 def is_whole_hdf5(path):

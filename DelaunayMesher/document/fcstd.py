@@ -4,7 +4,7 @@ import os
 import tempfile
 import zipfile
 
-from ..errors import InputError
+from ..errors import InputError, incomplete_file
 from .find_freecad import find_freecad
 from .read_shape import words
 
@@ -48,7 +48,7 @@ def save(document, path):
             draft = os.path.join(workshop, "mesh.FCStd")
             document.saveAs(draft)
             if not zipfile.is_zipfile(draft):  # of the last that it writes FreeCAD does not notice a failure
-                raise OSError("the file could not be completed; is the disk full?")
+                raise incomplete_file()
             os.replace(draft, path)
     except Exception as error:  # FreeCAD raises errors of its own beside OSError
         reason = getattr(error, "strerror", None) or words(error)
