@@ -13,7 +13,16 @@ from itertools import combinations
 
 from . import __version__
 from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
-from .errors import EXIT_BELOW_TARGET, EXIT_CANCELLED, EXIT_OK, InputError, MeshCancelled, MeshError, refusal
+from .errors import (
+    EXIT_BELOW_TARGET,
+    EXIT_CANCELLED,
+    EXIT_OK,
+    InputError,
+    MeshCancelled,
+    MeshError,
+    in_number,
+    refusal,
+)
 from .options import BY_NAME, OPTIONS, MeshOptions
 from .progress import TerminalBar
 
@@ -182,12 +191,11 @@ def summary(mesh, output):
     quality = mesh.quality
     lines = [
         "%s: %d points, %d tetrahedra of order %d" % (output, len(mesh.points), len(mesh.tets), mesh.order),
-        "dihedral angles %.2f .. %.2f degrees; %d elements below %g"
+        "dihedral angles %.2f .. %.2f degrees; %s"
         % (
             quality["min_dihedral"],
             quality["max_dihedral"],
-            len(mesh.below_target),
-            mesh.options.target_angle,
+            in_number("%d element(s) below %g" % (len(mesh.below_target), mesh.options.target_angle)),
         ),
         "%.3f s: %s" % (mesh.total_seconds, ", ".join("%s %.3f" % item for item in mesh.seconds.items())),
     ]

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .errors import MeshError
+from .errors import MeshError, in_number
 
 FRONT, BACK = 0, 1  # side numbers: 2 * triangle + FRONT (where the right-hand normal points) or + BACK
 OVERLAP = 1e-9  # radians: triangles at one edge closer than this overlap
@@ -98,7 +98,8 @@ def _shells(points, triangles, sides):
     if (sizes == 1).any():
         place = points[edges[starts[np.flatnonzero(sizes == 1)[0]]]].mean(axis=0)
         count = int((sizes == 1).sum())
-        raise MeshError("plc", "open_edge", "the surface is not closed: %d open edges, one" % count, place)
+        message = in_number("the surface is not closed: %d open edge(s), one" % count)
+        raise MeshError("plc", "open_edge", message, place)
     angle = _angles(points, edges, third, starts, sizes)
     group = np.repeat(np.arange(len(starts)), sizes)
     order = np.lexsort((angle, group))

@@ -5,6 +5,8 @@ for programs), message, place (x, y, z in mm or None) and entity (a CAD element'
 None).
 """
 
+import re
+
 EXIT_OK = 0
 EXIT_NO_MESH = 1
 EXIT_USAGE = 2
@@ -12,6 +14,7 @@ EXIT_BELOW_TARGET = 3
 EXIT_CANCELLED = 130
 
 DIMENSION_NAMES = ("Vertex", "Edge", "Face", "Solid")
+_COUNTED = re.compile(r"\b([0-9]+)((?: [^\W\d][\w-]*)+?)\(s\)")
 
 
 def entity_name(dimension, index):
@@ -19,6 +22,11 @@ def entity_name(dimension, index):
     if dimension < 0 or index < 0:
         return None
     return "%s%d" % (DIMENSION_NAMES[dimension], index if dimension == 3 else index + 1)
+
+
+def in_number(text):
+    """'1 place' and '2 open edges' for '1 place(s)' and '2 open edge(s)' in a text."""
+    return _COUNTED.sub(lambda found: found[1] + found[2] + ("" if found[1] == "1" else "s"), text)
 
 
 class MeshError(Exception):

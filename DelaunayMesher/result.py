@@ -6,7 +6,7 @@ from typing import Any, Dict, List
 import numpy as np
 
 from .cad_names import carrier
-from .errors import entity_name
+from .errors import entity_name, in_number
 
 
 @dataclass
@@ -168,6 +168,6 @@ def mesh_from_core(result, options, element_counts, warnings=()):
         element_counts=element_counts,
         seconds=dict(result["seconds"]),
         statistics=dict(result["statistics"]),
-        warnings=[*warnings, *result["warnings"]],
+        warnings=[*warnings, *map(in_number, result["warnings"])],
         aliases=result["aliases"],
     )

@@ -7,7 +7,7 @@ import pytest
 from sample_surfaces import box, cylinder, joined, sphere, torus, volume
 
 import DelaunayMesher
-from DelaunayMesher import quality
+from DelaunayMesher import joining, quality
 from DelaunayMesher.errors import InputError, MeshCancelled, MeshError
 from DelaunayMesher.plc import Plc
 from DelaunayMesher.sizing import Region
@@ -118,6 +118,12 @@ def test_names_count_on_over_pieces_that_cross():
     for name in ("Face13", "Edge25", "Vertex17", "Solid3"):
         with pytest.raises(InputError, match="there is no " + name):
             mesh.nodes_of(name)
+
+
+def test_counts_in_warnings_are_singular_or_plural(monkeypatch):
+    join = joining.join
+    monkeypatch.setattr(joining, "join", lambda *given: {**join(*given), "warnings": ["in 1 place(s)"]})
+    assert DelaunayMesher.mesh(box(), max_size=0.5).warnings == ["in 1 place"]
 
 
 def test_too_many_elements():

@@ -3,7 +3,7 @@ import pickle
 import re
 from pathlib import Path
 
-from DelaunayMesher.errors import InputError, MeshCancelled, MeshError, entity_name
+from DelaunayMesher.errors import InputError, MeshCancelled, MeshError, entity_name, in_number
 
 ROOT = Path(__file__).parent.parent
 
@@ -14,6 +14,18 @@ def test_names():
     assert entity_name(3, 2) == "Solid2"
     assert entity_name(-1, -1) is None
     assert entity_name(2, -1) is None
+
+
+def test_counts_are_singular_or_plural():
+    for text, expected in (
+        ("in 1 place(s) it is so", "in 1 place it is so"),
+        ("in 21 place(s)", "in 21 places"),
+        ("1 open edge(s), 0 boundary triangle(s)", "1 open edge, 0 boundary triangles"),
+        ("1 solid(s) of its 12 face(s)", "1 solid of its 12 faces"),
+        ("Face1 and 2 mm in 1 place(s)", "Face1 and 2 mm in 1 place"),
+        ("Part(s) 1", "Part(s) 1"),
+    ):
+        assert in_number(text) == expected
 
 
 def test_one_line_says_it_all():

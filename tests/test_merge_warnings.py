@@ -7,15 +7,15 @@ def test_equal_words_make_one_warning():
     assert merged(
         [
             "far smaller: Face5, Face8, Edge9 and 4 more; a size keeps them",
-            "in 6 places the mesh is constrained",
+            "in 6 place(s) the mesh is constrained",
             "far smaller: Edge7, Face5; a size keeps them",
-            "in 2 places the mesh is constrained",
+            "in 2 place(s) the mesh is constrained",
             "walls need elements of 1.47 mm; they get 15 mm.",
             "walls need elements of 15 mm; they get 4.3e-05 mm.",
         ]
     ) == [
         "far smaller: Face5, Face8, Edge7, Edge9 and 4 more; a size keeps them",
-        "in 8 places the mesh is constrained",
+        "in 8 place(s) the mesh is constrained",
         "walls need elements of 1.47 mm; they get 4.3e-05 mm.",
     ]
 

@@ -92,11 +92,13 @@ std::string absorbed_warning(const Absorbed& absorbed) {
          "; a size given to them, or a minimum size, keeps them";
 }
 
+// Counts are written "1 place(s)": Python adds up those of several PLCs before it chooses singular or plural
+// (errors.in_number).
 std::string left_out_warning(const std::vector<Vec3>& places) {
   const Vec3& p = places[0];
   char place[100];
   std::snprintf(place, sizeof place, "near (%.6g, %.6g, %.6g)", p.x, p.y, p.z);
-  return std::to_string(places.size()) + " elements without volume were left out where faces touch, " +
+  return std::to_string(places.size()) + " element(s) without volume had to be left out where faces touch, " +
          place + "; if solids are to be joined there, cut the part with Boolean Fragments";
 }
 
@@ -104,12 +106,12 @@ void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport
   if (recovery.replaced)
     result.warnings.push_back(
         std::to_string(recovery.replaced) +
-        " boundary triangles could not be recovered and were replaced by others between the "
+        " boundary triangle(s) could not be recovered and had to be replaced by others between the "
         "same nodes: faces touch, cross or meet at narrow angles there (" +
         names(recovery.unrecovered_faces) + ")");
   if (refinement.constrained)
     result.warnings.push_back("in " + std::to_string(refinement.constrained) +
-                              " places the mesh is constrained by the boundary instead of Delaunay");
+                              " place(s) the mesh is constrained by the boundary instead of Delaunay");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ import tempfile
 
 import FreeCAD
 
-from ..errors import MeshError
+from ..errors import MeshError, in_number
 from .mesh_object import analysis_of
 
 CCX_TOOLS, CALCULIX = "Fem::SolverCcxTools", "Fem::SolverCalculiX"  # the second from FreeCAD 1.1 on
@@ -136,8 +136,10 @@ def solver_of(analysis):
     if solvers:
         raise failure(
             "which_solver",
-            "%s has %d solvers, of them %d for CalculiX; exactly one of these is needed"
-            % (analysis.Label, len(solvers), len(usable)),
+            in_number(
+                "%s has %d solver(s), of them %d for CalculiX; exactly one of these is needed"
+                % (analysis.Label, len(solvers), len(usable))
+            ),
         )
     return add_solver(analysis)
 

@@ -10,7 +10,7 @@ OCC's own time. Limits: self-intersections are left to the core to find.
 import numpy as np
 import Part
 
-from ..errors import MeshError, entity_name
+from ..errors import MeshError, entity_name, in_number
 from ..sizing import AUTOMATIC_FRACTION
 from .cad_elements import CadElements
 from .closed import open_triangles, solid_volumes
@@ -234,7 +234,9 @@ def open_shape(shape, mesh, rows, edges):
     return MeshError(
         "plc",
         "open_shell",
-        "%s at %s: %d triangle edges have no neighbour" % (cause, face_names(faces), len(rows)),
+        in_number(
+            "%s at %s: %d triangle edge(s) without a neighbour" % (cause, face_names(faces), len(rows))
+        ),
         place=place,
         entity=name,
     )

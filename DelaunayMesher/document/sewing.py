@@ -11,6 +11,7 @@ made.
 import numpy as np
 import Part
 
+from ..errors import in_number
 from .cad_elements import incidences
 
 SEWING = 1e-4  # of the diagonal: how far apart edges may be that are taken as one
@@ -24,15 +25,13 @@ def with_solids(shape, warnings):
     solids, left = closed_groups(face_groups(shape), SEWING * shape.BoundBox.DiagonalLength)
     if not solids:
         return shape
-    warnings.append(
-        "the file has no solid; its %d faces were sewn to %d solid%s%s"
-        % (
-            len(shape.Faces),
-            len(solids),
-            "" if len(solids) == 1 else "s",
-            ", %d faces do not close and are left out" % left if left else "",
-        )
+    text = "the file has no solid; sewing made %d solid(s) of its %d face(s)" % (
+        len(solids),
+        len(shape.Faces),
     )
+    if left:
+        text += "; %d face(s) that did not close had to be left out" % left
+    warnings.append(in_number(text))
     return solids[0] if len(solids) == 1 else Part.Compound(solids)
 
 

@@ -43,14 +43,14 @@ def test_loose_faces_are_sewn_to_a_solid(name):
     sewn = with_solids(loose(shape), notes)
     assert len(sewn.Solids) == 1 and len(sewn.Faces) == len(shape.Faces)
     assert volume_of(sewn) == pytest.approx(shape.Volume, rel=0.01)
-    assert "sewn to 1 solid" in notes[0]
+    assert "sewing made 1 solid of its " in notes[0]
 
 
 def test_a_file_of_faces_is_meshed(tmp_path):
     path = str(tmp_path / "faces.brep")
     loose(Part.makeBox(10, 10, 10)).exportBrep(path)
     mesh = pipeline.run(path, {"max_size": 5.0})
-    assert len(mesh.tets) and "sewn" in mesh.warnings[0]
+    assert len(mesh.tets) and "sewing" in mesh.warnings[0]
 
 
 def test_faces_inside_others_are_a_cavity():
@@ -77,7 +77,7 @@ def test_faces_that_do_not_close_stay_faces():
     notes = []
     sewn = with_solids(Part.Compound([*Part.makeBox(1, 1, 1, Vector(20, 0, 0)).Faces, *box.Faces[:5]]), notes)
     assert sewn.Volume == pytest.approx(1.0)
-    assert "5 faces do not close" in notes[0]
+    assert "5 faces that did not close" in notes[0]
 
 
 @pytest.mark.parametrize("gap", [0.0, 5e-4])
