@@ -9,13 +9,16 @@ NAMED = 12  # elements named in a message, as in the core
 _NAME = "(?:%s)[0-9]+" % "|".join(DIMENSION_NAMES)
 _NAMES = r"(?P<names>\b%s(?:, %s)*)(?: and (?P<more>[0-9]+) more)?" % (_NAME, _NAME)
 _LENGTH = r"(?P<length>[0-9.]+(?:e[-+][0-9]+)?) mm\b"
+_NUMBER = "[-+0-9.e]+"
+_PLACE = r"(?P<place>\(%s, %s, %s\))" % (_NUMBER, _NUMBER, _NUMBER)
 _COUNT = r"(?P<count>\b[0-9]+\b)"
-_VARYING = re.compile("|".join((_NAMES, _LENGTH, _COUNT)))
+_VARYING = re.compile("|".join((_NAMES, _PLACE, _LENGTH, _COUNT)))
 
 
 def merged(warnings):
     """List of the warnings, without repetition; of those with the same words the first takes all in:
-    lists of elements are united (and cut short), counts added up, and of lengths the smallest holds."""
+    lists of elements are united (and cut short), counts added up, of lengths the smallest holds, of places
+    the first."""
     groups = {}
     for text in dict.fromkeys(warnings):
         groups.setdefault(_VARYING.sub("#", text), []).append(text)
@@ -36,6 +39,8 @@ def _common(matches):
         names = sorted({name for match in matches for name in match["names"].split(", ")}, key=_order)
         more = sum(int(match["more"] or 0) for match in matches) + max(0, len(names) - NAMED)
         return ", ".join(names[:NAMED]) + (" and %d more" % more if more else "")
+    if first["place"]:
+        return first["place"]
     if first["length"]:
         return min((match["length"] for match in matches), key=float) + " mm"
     return str(sum(int(match["count"]) for match in matches))

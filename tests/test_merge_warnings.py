@@ -20,6 +20,11 @@ def test_equal_words_make_one_warning():
     ]
 
 
+def test_of_places_the_first_stands():
+    texts = ["3 element(s) near (1, 2, 3); cut", "4 element(s) near (-0.5, 2e-05, 30); cut"]
+    assert merged(texts) == ["7 element(s) near (1, 2, 3); cut"]
+
+
 def test_long_lists_are_cut_short():
     text = "replaced there (%s)"
     first, second = (", ".join("Face%d" % n for n in numbers) for numbers in (range(1, 9), range(9, 15)))
