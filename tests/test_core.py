@@ -1,5 +1,6 @@
 """The compiled core through the public API, on surfaces without CAD. Fails when the core is not built."""
 
+import re
 import time
 
 import numpy as np
@@ -124,6 +125,16 @@ def test_counts_in_warnings_are_singular_or_plural(monkeypatch):
     join = joining.join
     monkeypatch.setattr(joining, "join", lambda *given: {**join(*given), "warnings": ["in 1 place(s)"]})
     assert DelaunayMesher.mesh(box(), max_size=0.5).warnings == ["in 1 place"]
+
+
+def test_a_minimum_size_lifts_the_limit_of_thin_walls():
+    foil = box(high=(4, 4, 0.05))
+    coarse = DelaunayMesher.mesh(foil, max_size=10)
+    (warning,) = coarse.warnings
+    wanted, given = map(float, re.search(r"need elements of (\S+) mm; they get (\S+) mm", warning).groups())
+    assert wanted < given and "--min-size" in warning and "four times" in warning
+    fine = DelaunayMesher.mesh(foil, max_size=10, min_size=wanted)
+    assert not fine.warnings and 1 < len(fine.tets) / len(coarse.tets) < (given / wanted) ** 2
 
 
 def test_too_many_elements():

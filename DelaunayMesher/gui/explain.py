@@ -32,9 +32,13 @@ def stage_name(stage):
 
 def explain(error):
     """A MeshError for people: the stage by its name, options as the panel calls them."""
+    return stage_name(error.stage) + with_labels(str(error)[len(error.stage) :])
+
+
+def with_labels(text):
+    """The text with the options as the panel calls them instead of the command line."""
     from ..options import OPTIONS
 
-    text = str(error)[len(error.stage) :]
     for option in OPTIONS:
         text = text.replace("--" + option.name.replace("_", "-"), "\u201c%s\u201d" % tr(option.label))
-    return stage_name(error.stage) + text
+    return text

@@ -3,7 +3,7 @@
 from PySide import QtCore, QtGui
 
 from ..errors import MeshCancelled
-from .explain import explain, stage_name
+from .explain import explain, stage_name, with_labels
 from .texts import qt_icon, tr
 
 LOG_LINES = 500
@@ -140,7 +140,7 @@ class RunBox(QtGui.QWidget):
             if stage != "total":
                 self.write("%6.2f s  %s" % (seconds, stage_name(stage)))
         for warning in report.get("warnings", ()):
-            self.write(warning, WARN)
+            self.write(with_labels(warning), WARN)
         self.show_report(report)
 
     def show_solution(self, job, moved, stress):

@@ -74,6 +74,22 @@ def too_many_elements():
     wait(0.2)
 
 
+def thin_wall():
+    """The warning says which field of the panel lifts the limit."""
+    document = FreeCAD.newDocument("Foil")
+    box = document.addObject("Part::Box", "Foil")
+    box.Height = 0.05
+    document.recompute()
+    panel = drive.open_panel(box)
+    panel.options_box.fields["max_size"].write(10.0)
+    drive.run(panel)
+    text = panel.run_box.log.toPlainText().splitlines()[-1]
+    say(text)
+    assert "so thin" in text and "\u201cMin size\u201d" in text and "--" not in text
+    panel.reject()
+    wait(0.2)
+
+
 def refinement_without_a_mesh():
     """The user is told to make the mesh first."""
     document = FreeCAD.newDocument("NoMesh")
@@ -91,6 +107,7 @@ def main():
     objects_without_a_solid()
     broken_solid()
     too_many_elements()
+    thin_wall()
     refinement_without_a_mesh()
 
 

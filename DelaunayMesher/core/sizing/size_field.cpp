@@ -56,11 +56,12 @@ double inverse_boundary_area(const Field& h, const Plc& plc, int levels) {
 }
 
 std::string limited_walls(const ProximityResult& found) {
-  char text[240];
+  char text[320];
   std::snprintf(
       text, sizeof text,
-      "Some walls or gaps are so thin that they need elements of %.3g mm; they get %.3g mm. Angles may be "
-      "below the target there. A minimum size makes the elements as small as it allows.",
+      "Some walls or gaps are so thin that they need elements of %.3g mm; they get %.3g mm, and angles may "
+      "be below the target there. To lift this limit, set --min-size to a length between the two; half of "
+      "it makes up to four times as many elements there.",
       found.wanted, found.finest);
   return text;
 }
