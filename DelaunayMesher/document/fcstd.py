@@ -12,6 +12,7 @@ from .read_shape import words
 def write_fcstd(path, mesh, shape=None, options=None):
     """Write an .FCStd with the part (when there is one) and the filled FEM mesh object.
 
+    options: those that the mesh was made with; without them its mesh counts as current whatever is changed.
     The file appears only when it is complete.  Raises InputError when it cannot be written.
     """
     find_freecad()
@@ -19,7 +20,7 @@ def write_fcstd(path, mesh, shape=None, options=None):
     import FreeCAD
 
     from .femmesh import fill, put
-    from .mesh_object import add_mesh, describe, store_options
+    from .mesh_object import add_mesh, collect, describe, store_options
 
     filling = fill(mesh)
     document = FreeCAD.newDocument("Mesh", hidden=True, temp=True)
@@ -28,9 +29,11 @@ def write_fcstd(path, mesh, shape=None, options=None):
             part = document.addObject("Part::Feature", "Part")
             part.Shape = shape
             target = add_mesh(part)
+            made_from = None
             if options is not None:
                 store_options(target, options)
-            describe(target, mesh)
+                made_from = collect(target).made_from
+            describe(target, mesh, made_from)
         else:
             target = document.addObject("Fem::FemMeshObject", "FEMMesh")
         for _ in put(target, filling):

@@ -10,6 +10,7 @@ import numpy as np
 import ObjectsFem
 import Part
 import pytest
+from parts import PARTS
 
 from DelaunayMesher import document
 from DelaunayMesher.document import femmesh
@@ -251,6 +252,28 @@ def test_write_fcstd(box, tmp_path):
         FreeCAD.closeDocument(again.Name)
     with pytest.raises(InputError, match="No such"):
         document.write_fcstd(str(tmp_path / "none" / "out.FCStd"), mesh, shape)
+
+
+@pytest.mark.parametrize("name", ["bracket", "lofted", "torus"])
+def test_a_mesh_of_the_command_line_is_current_until_an_option_changes(name, tmp_path):
+    shape = PARTS[name]()
+    shape.Placement = FreeCAD.Placement(FreeCAD.Vector(1, 2, 3), FreeCAD.Rotation(10, 20, 30))
+    ball = Region.ball((1 / 3, 5, 5), 2.0, shape.BoundBox.DiagonalLength / 30)
+    options = document.make_options(sizes={"Face1": shape.BoundBox.DiagonalLength / 25}, regions=[ball])
+    path = str(tmp_path / "out.FCStd")
+    document.mesh_shape(shape, options).write(path)
+    again = FreeCAD.openDocument(path)
+    try:
+        target = next(item for item in again.Objects if item.isDerivedFrom("Fem::FemMeshObject"))
+        assert is_current(target)
+        for name, value in (("Growth", 0.3), ("Sizes", [])):
+            old = getattr(target, name)
+            setattr(target, name, value)
+            assert not is_current(target), name
+            setattr(target, name, old)
+            assert is_current(target), name
+    finally:
+        FreeCAD.closeDocument(again.Name)
 
 
 def inner_edge(mesh, centre, radius):
