@@ -16,8 +16,9 @@ import numpy as np
 
 from ..errors import InputError
 from ..options import MeshOptions
+from ..surfacefile import Surface
 from . import femmesh, history, references
-from .placement import own_shape, shape_to_mesh
+from .placement import is_surface, own_shape, source_of
 from .properties import add_option_properties, get_options, set_options
 from .size_region import add_size_region, regions_of
 from .stateless import Stateless
@@ -82,12 +83,13 @@ def add_mesh(part, analysis=None, name="FEMMeshDelaunay", **options):
     """A new, empty mesh object for the document object `part`, in `analysis` (default: the active one, if
     any).
 
+    part: anything with a solid, or a closed mesh of triangles (Mesh::Feature).
     options: as MeshOptions takes them, such as max_size=5.0, order=2, sizes={"Face3": 0.5}.  Raises
     InputError for an unknown or impossible option; nothing is created then.
     """
     from ..options import make_options
 
-    if own_shape(part) is None:
+    if own_shape(part) is None and not is_surface(part):
         raise InputError("options", "no_shape", "%s has no shape to mesh" % getattr(part, "Label", part))
     if analysis is not None and not analysis.isDerivedFrom("Fem::FemAnalysis"):
         raise InputError("options", "no_analysis", "%s is no analysis" % analysis.Label)
@@ -165,8 +167,8 @@ def analysis_of(target):
 class Task:
     """What a run of a mesh object is given.
 
-    keep: names of elements that stay; groups: (name, names of elements) pairs; made_from: tells one part and
-    its options from another, see is_current().
+    shape: a Part shape, or the Surface of a mesh of triangles; keep: names of elements that stay; groups:
+    (name, names of elements) pairs; made_from: tells one part and its options from another, see is_current().
     """
 
     shape: Any
@@ -175,6 +177,11 @@ class Task:
     groups: List[Tuple[str, List[str]]]
     warnings: List[str]
     made_from: str
+
+    def detach(self):
+        """Take a copy of the shape: the document's own may be recomputed while a thread works on it."""
+        if not isinstance(self.shape, Surface):
+            self.shape = self.shape.copy()
 
     def mesh(self, report=None):
         """The Mesh; report as in run()."""
@@ -188,8 +195,8 @@ def collect(target, **extra):
     part = target.Shape
     if part is None:
         raise InputError("options", "no_part", "%s is not linked to a part" % target.Label)
-    shape = shape_to_mesh(part)
-    if shape is None or not shape.Vertexes:
+    shape = source_of(part)
+    if shape is None:
         raise InputError("options", "no_shape", "%s has no visible shape to mesh" % part.Label)
     sizes = read_sizes(target.Sizes)
     refined, warnings = references.refinement_sizes(target, part, shape)
@@ -205,12 +212,15 @@ def collect(target, **extra):
 
 
 def fingerprint(shape, options):
-    """Text that differs when the mesh of a shape with these options does.
+    """Text that differs when the mesh of a shape (or Surface) with these options does.
 
     By places that its geometry has wherever it is stored or drawn: the volume takes OCC seconds, and the
     bounding box of a shape changes once it was drawn.
     """
-    places = np.array([tuple(place) for place in places_of(shape)])
+    if isinstance(shape, Surface):
+        places = shape.points[shape.triangles].reshape(-1, 3)
+    else:
+        places = np.array([tuple(place) for place in places_of(shape)])
     size = max(np.linalg.norm(np.ptp(places, axis=0)), 1e-300)
     shares = np.round(places / size, 6) + 0.0  # no negative zeros
     chosen = {name: value for name, value in asdict(options).items() if name not in WITHOUT_EFFECT}
@@ -278,7 +288,7 @@ def run(target, report=None, **extra):
 
 
 def mesh_shape(shape, options, report=None, keep=()):
-    """Mesh of a Part shape (pipeline.run); keep: names of elements that stay."""
+    """Mesh of a Part shape or a Surface (pipeline.run); keep: names of elements that stay."""
     from .. import pipeline
 
     return pipeline.run(shape, options, report, keep)

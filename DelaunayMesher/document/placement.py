@@ -1,5 +1,9 @@
 """The shape of a document object where FreeCAD's FEM module looks for it."""
 
+import numpy as np
+
+from ..surfacefile import Surface
+
 GLOBAL_SINCE = (1, 0)  # FreeCAD 0.20 and 0.21 search the mesh at the object's own placement
 
 
@@ -20,6 +24,31 @@ def shape_to_mesh(item):
     shape = shape.copy()
     shape.Placement = item.Placement.inverse().multiply(shape.Placement)
     return shape
+
+
+def source_of(item):
+    """What is meshed of a document object: the shape of shape_to_mesh(), or the Surface of a mesh of
+    triangles; None where there is nothing.
+    """
+    if is_surface(item):
+        return surface_to_mesh(item)
+    shape = shape_to_mesh(item)
+    return shape if shape is not None and shape.Vertexes else None
+
+
+def is_surface(item):
+    """Whether `item` is a document object with a mesh of triangles, an opened STL file for instance."""
+    return hasattr(item, "isDerivedFrom") and item.isDerivedFrom("Mesh::Feature")
+
+
+def surface_to_mesh(item):
+    """The Surface of a mesh of triangles, placed as by shape_to_mesh(); None without triangles."""
+    mesh = item.Mesh
+    if version() >= GLOBAL_SINCE:
+        mesh = mesh.copy()
+        mesh.Placement = item.getGlobalPlacement()
+    points, triangles = mesh.Topology
+    return Surface(np.array([tuple(point) for point in points]), np.array(triangles)) if triangles else None
 
 
 def mesh_frame(item):

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import extension, pipeline, sizing
-from .plc_from_shape import convert
 
 FINEST_SHARE = 1.0 / 50.0  # edge length on the shown surface, of the diagonal
 MOST_TRIANGLES = 40000
@@ -26,9 +25,9 @@ class Preview:
 
 
 def preview(shape, options, keep=()):
-    """The Preview of a Part shape with a MeshOptions.  Raises MeshError as a run would."""
+    """The Preview of a Part shape or a Surface with a MeshOptions.  Raises MeshError as a run would."""
     core = extension.load()
-    plcs = convert(shape, options, keep).plcs
+    plcs, _, _ = pipeline.to_plcs(shape, options, keep)
     if options.max_size is None:
         everything = np.concatenate([plc.points for plc in plcs])
         options = options.with_changes(max_size=sizing.automatic_max_size(everything))

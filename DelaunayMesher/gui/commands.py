@@ -7,20 +7,22 @@ from .texts import icon, tr
 
 
 class MeshSolid:
-    """Make a mesh object for the selected solid and open its panel; on a mesh object, open its panel."""
+    """Make a mesh object for the selected solid or mesh of triangles and open its panel; on a mesh object,
+    open its panel.
+    """
 
     def GetResources(self):
         return {
             "Pixmap": icon("mesh_solid"),
             "MenuText": tr("Mesh this solid"),
             "ToolTip": tr(
-                "Tetrahedral FEM mesh of the selected solid by Delaunay refinement. It goes into the active "
-                "analysis, if there is one"
+                "Tetrahedral FEM mesh of the selected solid, or of a closed mesh of triangles, by Delaunay "
+                "refinement. It goes into the active analysis, if there is one"
             ),
         }
 
     def IsActive(self):
-        return any(find() is not None for find in (selected_part, selected_mesh, selected_surface_mesh))
+        return selected_part() is not None or selected_mesh() is not None
 
     def Activated(self):
         from . import start_mesh
@@ -28,17 +30,6 @@ class MeshSolid:
         mesh = selected_mesh()
         if mesh is not None:
             start_mesh.edit(mesh)
-        elif selected_surface_mesh() is not None:
-            start_mesh.show_error(
-                tr(
-                    "%s is a mesh of triangles, not a solid. A closed .stl, .off or .ply file is meshed "
-                    'directly by DelaunayMesher.mesh("file.stl") in the Python console (after import '
-                    "DelaunayMesher), or by python3 -m DelaunayMesher file.stl -o file.FCStd on the command "
-                    "line. To mesh it here, make a solid of it first: in the workbench Part, menu Part, "
-                    "'Create shape from mesh', then 'Convert to solid'."
-                )
-                % selected_surface_mesh().Label
-            )
         else:
             start_mesh.create(selected_part())
 
@@ -262,17 +253,13 @@ def selected_fem_mesh():
 
 
 def selected_part():
-    """The only selected object with a shape, or None.  Whether it can be meshed is found out later."""
+    """The only selected object with a shape or a mesh of triangles, or None.  Whether it can be meshed is
+    found out later.
+    """
     items = selected_objects()
     if len(items) != 1 or items[0].isDerivedFrom("Fem::FemMeshObject"):
         return None
-    return body_of(items[0]) if is_part(items[0]) else None
-
-
-def selected_surface_mesh():
-    """The only selected mesh of triangles (an opened STL file for instance), or None."""
-    items = selected_objects()
-    return items[0] if len(items) == 1 and items[0].isDerivedFrom("Mesh::Feature") else None
+    return body_of(items[0]) if is_part(items[0]) or items[0].isDerivedFrom("Mesh::Feature") else None
 
 
 def body_of(item):

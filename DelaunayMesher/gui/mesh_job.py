@@ -44,7 +44,7 @@ class MeshJob:
     def __init__(self, target):
         with mesh_errors("options"):
             self.task = mesh_object.collect(target)
-            self.task.shape = self.task.shape.copy()  # the document's own may be recomputed meanwhile
+            self.task.detach()
         self.where = (target.Document.Name, target.Name)
         self.stage, self.fraction = "plc", 0.0
         self.mesh = self.filling = self.error = None

@@ -27,7 +27,7 @@ class PreviewJob:
     def __init__(self, target):
         with mesh_errors("options"):
             self.task = mesh_object.collect(target)
-            self.task.shape = self.task.shape.copy()
+            self.task.detach()
         self.result = self.error = None
         self.thread = threading.Thread(target=self.run, name="DelaunayMesher preview", daemon=True)
         self.thread.start()

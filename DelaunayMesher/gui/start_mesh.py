@@ -15,7 +15,7 @@ def create(part):
     """
     if not extension_is_there() or panel_is_open():
         return
-    from ..document.placement import own_shape
+    from ..document.placement import is_surface, own_shape
     from ..document.plc_from_shape import check_solid
     from ..errors import MeshError
     from . import preferences
@@ -25,7 +25,8 @@ def create(part):
     document = part.Document
     try:
         with mesh_errors("options"), undo_step(document, tr("Delaunay mesh")):
-            check_solid(own_shape(part))
+            if not is_surface(part):
+                check_solid(own_shape(part))
             arguments = "".join(", %s=%r" % item for item in preferences.options_for(part).items())
             FreeCADGui.addModule("DelaunayMesher.document")
             FreeCADGui.doCommand(

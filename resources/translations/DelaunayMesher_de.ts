@@ -8,8 +8,8 @@
       <translation>Diesen Volumenkörper vernetzen</translation>
     </message>
     <message>
-      <source>Tetrahedral FEM mesh of the selected solid by Delaunay refinement. It goes into the active analysis, if there is one</source>
-      <translation>FEM-Netz aus Tetraedern für den gewählten Volumenkörper durch Delaunay-Verfeinerung. Es kommt in die aktive Analyse, falls es eine gibt</translation>
+      <source>Tetrahedral FEM mesh of the selected solid, or of a closed mesh of triangles, by Delaunay refinement. It goes into the active analysis, if there is one</source>
+      <translation>FEM-Netz aus Tetraedern für den gewählten Volumenkörper oder ein geschlossenes Netz aus Dreiecken durch Delaunay-Verfeinerung. Es kommt in die aktive Analyse, falls es eine gibt</translation>
     </message>
     <message>
       <source>Refine selected faces</source>
@@ -66,10 +66,6 @@
     <message>
       <source>Solve the analysis with CalculiX and show the stresses; meshes first if there is no mesh of the part and options as they are now</source>
       <translation>Die Analyse mit CalculiX berechnen und die Spannungen zeigen; vernetzt zuerst, wenn es kein Netz des Teils und der Optionen gibt, wie sie jetzt sind</translation>
-    </message>
-    <message>
-      <source>%s is a mesh of triangles, not a solid. A closed .stl, .off or .ply file is meshed directly by DelaunayMesher.mesh("file.stl") in the Python console (after import DelaunayMesher), or by python3 -m DelaunayMesher file.stl -o file.FCStd on the command line. To mesh it here, make a solid of it first: in the workbench Part, menu Part, 'Create shape from mesh', then 'Convert to solid'.</source>
-      <translation>%s ist ein Netz aus Dreiecken, kein Volumenkörper. Eine geschlossene .stl-, .off- oder .ply-Datei vernetzt unmittelbar DelaunayMesher.mesh("file.stl") in der Python-Konsole (nach import DelaunayMesher) oder python3 -m DelaunayMesher file.stl -o file.FCStd auf der Kommandozeile. Um es hier zu vernetzen, zuerst einen Volumenkörper daraus machen: im Arbeitsbereich Part, Menü Formteil, „Form aus Netz erstellen“, dann „In Festkörper umwandeln“.</translation>
     </message>
     <message>
       <source>Options</source>

@@ -3,6 +3,7 @@
 import drive
 import FreeCAD
 import FreeCADGui
+import Mesh
 from drive import say, wait, wait_until
 from PySide import QtGui
 
@@ -31,6 +32,19 @@ def preview(part, panel):
     assert 0.8 * real < estimate < 1.2 * real
     drive.view_all()
     drive.picture("bracket")
+
+
+def mesh_of_triangles():
+    """An opened STL file has the panel and its preview as a solid has."""
+    document = FreeCAD.newDocument("Triangles")
+    item = document.addObject("Mesh::Feature", "Cube")
+    item.Mesh = Mesh.createBox(10, 10, 10)
+    panel = drive.open_panel(item)
+    assert panel.target.Shape == item
+    panel.options_box.fields["max_size"].write(2.0)
+    preview(item, panel)
+    assert not item.ViewObject.Visibility and panel.reject()
+    wait(0.2)
 
 
 def expression(panel):
@@ -106,6 +120,7 @@ def body_with_box():
 
 def main():
     drive.activate()
+    mesh_of_triangles()
     part, panel = open_bracket()
     preview(part, panel)
     expression(panel)

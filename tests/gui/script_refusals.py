@@ -3,7 +3,6 @@
 import drive
 import FreeCAD
 import FreeCADGui
-import Mesh
 import Part
 from drive import say, wait
 
@@ -24,9 +23,6 @@ def objects_without_a_solid():
         part = document.addObject("Part::Feature", name)
         part.Shape = shape
         refused(part, words)
-    triangles = document.addObject("Mesh::Feature", "Triangles")
-    triangles.Mesh = Mesh.createBox(10, 10, 10)
-    refused(triangles, "Create shape from mesh", 'DelaunayMesher.mesh("file.stl")', "-o file.FCStd")
     assert not [item for item in document.Objects if item.isDerivedFrom("Fem::FemMeshObject")]
     assert not document.UndoCount
 
