@@ -31,9 +31,9 @@ def test_a_part_with_a_narrow_torus_face_closes(reversed_strip):
             assert (plc.triangle_face == number).sum() == counted - 2  # no node inside
 
 
-def spring(turns):
+def spring(turns, pitch=4):
     """A wire of radius 1 round a cylinder of radius 8, one turn every 4 mm."""
-    helix = Part.makeHelix(4, 4 * turns, 8)
+    helix = Part.makeHelix(pitch, pitch * turns, 8)
     section = Part.Wire([Part.makeCircle(1, Vector(8, 0, 0), Vector(0, 1, 0))])
     return Part.Wire(helix.Edges).makePipeShell([section], True, True)
 
@@ -72,6 +72,15 @@ def test_springs_keep_their_turns(name):
 def test_a_spring_with_a_fillet_meshes_well():
     mesh = pipeline.run(SPRINGS["fillet"](), {"max_size": 1.5})
     assert mesh.report()["quality"]["min_dihedral"] > 25
+
+
+@pytest.mark.parametrize("gap", [0.1, 0.02])
+def test_coils_that_nearly_touch_are_kept_apart(gap):
+    """Both sides of the gap are one face, nearer to each other than the triangles are to the surface."""
+    mesh = pipeline.run(spring(3, 2 + gap), {"max_size": 1.5})
+    report = mesh.report()
+    assert not [w for w in report["warnings"] if "replaced" in w]
+    assert report["quality"]["min_dihedral"] > 25
 
 
 QUARTER = Part.makeBox(200, 200, 40, Vector(0, -200, -20))

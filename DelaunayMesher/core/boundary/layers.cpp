@@ -174,10 +174,14 @@ class LayerMatcher {
   bool move_over(Index v, Index other) {
     const Entity entity = complex_.entity(v);
     if (entity.dimension == 0 || fixed_[v]) return false;
-    const Vec3 old = at(v), place = geometry_.project(entity, at(other));
     const auto fan = complex_.triangles_at(v);
     std::vector<Vec3> before;
-    for (const Index t : fan) before.push_back(area_of(complex_.corners(t)));
+    Vec3 normal;
+    for (const Index t : fan) {
+      before.push_back(area_of(complex_.corners(t)));
+      normal += before.back();
+    }
+    const Vec3 old = at(v), place = geometry_.project(entity, at(other), normal);
     mesh_.points[v] = place;
     for (std::size_t k = 0; k < fan.size(); ++k) {
       const Triangle& t = complex_.corners(fan[k]);
@@ -207,7 +211,7 @@ class LayerMatcher {
     for (const Index corner : mesh_.triangles[image.triangle])
       for (const Index t : complex_.triangles_at(corner)) {
         const Triangle q = complex_.corners(t);
-        const Vec3 place = geometry_.project_to_face(complex_.face(t), at(image.point));
+        const Vec3 place = geometry_.project_to_face(complex_.face(t), at(image.point), area_of(q));
         if (replace({t}, {{q[0], q[1]}, {q[1], q[2]}, {q[2], q[0]}}, place)) return true;
         for (int i = 0; i < 3; ++i) {
           const Index a = q[i], b = q[(i + 1) % 3], c = q[(i + 2) % 3];

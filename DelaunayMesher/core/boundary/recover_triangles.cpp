@@ -231,7 +231,7 @@ class Recovery {
       p = (1 - w) * pu + w * pv;
     else if (!well_inside(p, q, 0.15 * r))
       p = 0.7 * middle + 0.3 * circle.centre;
-    p = geometry_.project_to_face(face, p);
+    p = geometry_.project_to_face(face, p, area_vector(a, b, c));
     const Segment near = encroached_segment(q, p);
     if (near[0] >= 0) return split_segment(near[0], near[1]);
     return obtuse ? split_edge(u, v, face, p, edge) : split_inside(t, p, edge);

@@ -16,6 +16,10 @@ FacetSurface::FacetSurface(std::vector<TriangleItem> triangles)
 
 Vec3 FacetSurface::project(const Vec3& p) const { return tree_.nearest(p).point; }
 
+Vec3 FacetSurface::project(const Vec3& p, const Vec3& side) const {
+  return nearest_facing(tree_, p, side).point;
+}
+
 Vec3 FacetSurface::normal(const Vec3& p) const {
   const TriangleItem& triangle = tree_.item(tree_.nearest(p).item);
   return triangle.flat() ? mean_normal_ : normalized(triangle.area_normal());

@@ -10,6 +10,7 @@ class FacetSurface final : public Surface {
  public:
   explicit FacetSurface(std::vector<TriangleItem> triangles);
   Vec3 project(const Vec3& p) const override;
+  Vec3 project(const Vec3& p, const Vec3& side) const override;
   Vec3 normal(const Vec3& p) const override;  // of the nearest triangle; zero-area ones have the face's mean
   double curvature(const Vec3&) const override { return 0; }
 

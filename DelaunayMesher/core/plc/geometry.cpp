@@ -152,6 +152,11 @@ Vec3 Geometry::project_to_face(Index face, const Vec3& p) const {
   return impl_->faces[face].surface->project(p);
 }
 
+Vec3 Geometry::project_to_face(Index face, const Vec3& p, const Vec3& side) const {
+  const Impl::Face& f = impl_->faces[face];
+  return f.surface->project(p, f.side[f.surface->sheet(p)] * side);
+}
+
 Vec3 Geometry::project_to_edge(Index edge, const Vec3& p) const {
   return impl_->edges[edge].curve->project(p);
 }

@@ -73,6 +73,10 @@ class Geometry {
 
   // Nearest point of the surface of `face` (for facets: of its triangles) to p.
   Vec3 project_to_face(Index face, const Vec3& p) const;
+  // The same on the sheets of the surface whose normal, as the PLC's triangles have it, is not opposite to
+  // `side`: the coils of a spring, both sides of a thin wall may be one face, nearer to each other than the
+  // triangles are to the surface.
+  Vec3 project_to_face(Index face, const Vec3& p, const Vec3& side) const;
   // Nearest point of the curve of `edge` to p, not beyond its ends.
   Vec3 project_to_edge(Index edge, const Vec3& p) const;
   // Nearest point of the CAD element p belongs to: dimension 1 edge, 2 face; others return p.
@@ -80,6 +84,9 @@ class Geometry {
     return entity.dimension == 2   ? project_to_face(entity.index, p)
            : entity.dimension == 1 ? project_to_edge(entity.index, p)
                                    : p;
+  }
+  Vec3 project(Entity entity, const Vec3& p, const Vec3& side) const {
+    return entity.dimension == 2 ? project_to_face(entity.index, p, side) : project(entity, p);
   }
   // Unit normal at the projection of p, sign as the PLC's triangles of that face near p.
   Vec3 normal(Index face, const Vec3& p) const;

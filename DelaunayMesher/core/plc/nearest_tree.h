@@ -48,6 +48,14 @@ class TriangleItem {
   bool flat_;  // no area to speak of
 };
 
+// The nearest triangle that is not turned away from `side`; if all are, the nearest.
+template <class Tree>
+NearestPoint nearest_facing(const Tree& tree, const Vec3& p, const Vec3& side) {
+  const NearestPoint found =
+      tree.nearest(p, [&](const TriangleItem& t) { return t.flat() || dot(t.area_normal(), side) >= 0; });
+  return found.item >= 0 ? found : tree.nearest(p);
+}
+
 template <class Item>
 class NearestTree {
  public:
@@ -56,8 +64,16 @@ class NearestTree {
   const Item& item(Index i) const { return items_[i]; }
 
   NearestPoint nearest(const Vec3& p) const {
+    return nearest(p, [](const Item&) { return true; });
+  }
+
+  // Of the items that are accepted and nearer than that; item -1 if there are none.
+  template <class Accept>
+  NearestPoint nearest(const Vec3& p, Accept&& accept,
+                       double distance2 = std::numeric_limits<double>::infinity()) const {
     const auto& nodes = tree_.nodes();
     NearestPoint best;
+    best.distance2 = distance2;
     struct Waiting {
       Index node;
       double distance2;
@@ -80,7 +96,7 @@ class NearestTree {
       for (Index i = 0; i < node->count; ++i) {
         const Index item = tree_.order()[node->first + i];
         const NearestPoint found = items_[item].nearest(p);
-        if (found.distance2 < best.distance2) best = found, best.item = item;
+        if (found.distance2 < best.distance2 && accept(items_[item])) best = found, best.item = item;
       }
     }
     return best;

@@ -176,15 +176,34 @@ SplineSurface::Foot SplineSurface::newton(const Vec3& p, double u, double v, dou
   return {u, v, jet.point, false};
 }
 
+// Nearest, or on a sheet turned away from that one whose grid is farther away by less than its error.
 SplineSurface::Foot SplineSurface::foot(const Vec3& p) const {
   const NearestPoint nearest = grid_->nearest(p);
+  const Foot first = foot_from(p, nearest);
+  const double size = cell_size(nearest.item), away = distance(first.point, p);
+  if (away < settled * size) return first;
+  const Vec3 normal = grid_->item(nearest.item).area_normal();
+  const double reach = away + bend * size;
+  const NearestPoint behind = grid_->nearest(
+      p, [&](const TriangleItem& t) { return dot(t.area_normal(), normal) < 0; }, reach * reach);
+  if (behind.item < 0) return first;
+  const Foot second = foot_from(p, behind);
+  return norm2(second.point - p) < norm2(first.point - p) ? second : first;
+}
+
+// The diagonal of the cell.
+double SplineSurface::cell_size(Index item) const {
+  const TriangleItem& triangle = grid_->item(item);
+  return distance(triangle.corner(0), triangle.corner(item % 2 == 0 ? 2 : 1));
+}
+
+SplineSurface::Foot SplineSurface::foot_from(const Vec3& p, const NearestPoint& nearest) const {
   const std::size_t cell = nearest.item / 2, cells_v = lines_v_.size() - 1, i = cell / cells_v,
                     j = cell % cells_v;
   const double u0 = lines_u_[i], u1 = lines_u_[i + 1], v0 = lines_v_[j], v1 = lines_v_[j + 1];
   const bool lower = nearest.item % 2 == 0;
   const double s = lower ? nearest.s + nearest.t : nearest.s, t = lower ? nearest.t : nearest.s + nearest.t;
-  const TriangleItem& triangle = grid_->item(nearest.item);
-  const double size = distance(triangle.corner(0), triangle.corner(lower ? 2 : 1));
+  const double size = cell_size(nearest.item);
   Foot best = newton(p, u0 + s * (u1 - u0), v0 + t * (v1 - v0), settled * size);
   if (best.settled && distance(best.point, p) <= std::sqrt(nearest.distance2) + 2 * bend * size) return best;
   for (const double u : {u0, u1}) {
@@ -198,6 +217,11 @@ SplineSurface::Foot SplineSurface::foot(const Vec3& p) const {
 
 Vec3 SplineSurface::project(const Vec3& p) const {
   return surface_.origin() + foot(p - surface_.origin()).point;
+}
+
+Vec3 SplineSurface::project(const Vec3& p, const Vec3& side) const {
+  const Vec3 local = p - surface_.origin();
+  return surface_.origin() + foot_from(local, nearest_facing(*grid_, local, side)).point;
 }
 
 // The jet a fraction of the range further inside.

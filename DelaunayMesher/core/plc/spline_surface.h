@@ -1,7 +1,9 @@
 // Nearest point of a B-spline surface: nearest triangle of an adaptive grid, then Newton on the surface.
 //
-// The grid bends and changes pace little from line to line, so the nearest triangle lies on the right sheet
-// and Newton, with second-order terms, starts close: 3 steps (Ma, Hewitt 2003 treat the same two phases).
+// The grid bends and changes pace little from line to line, so Newton, with second-order terms, starts close:
+// 3 steps (Ma, Hewitt 2003 treat the same two phases).  Sheets of the surface that face each other (the coils
+// of a spring) may be nearer to each other than the grid is to them: the nearest triangle that is turned away
+// from the first is tried too, or none that is turned away from the side asked for.
 // Postcondition: the result is a point of the surface within its range to rounding, even where Newton does
 // not settle (degenerate edges, kinks); surfaces closed in u or v wrap.  Limit: the surface, not the trimmed
 // face, is projected on.  Cost about 1 microsecond for a bicubic surface.
@@ -19,6 +21,7 @@ class SplineSurface final : public Surface {
  public:
   explicit SplineSurface(const SplineSurfaceRecord& record);
   Vec3 project(const Vec3& p) const override;
+  Vec3 project(const Vec3& p, const Vec3& side) const override;
   Vec3 normal(const Vec3& p) const override;
   double curvature(const Vec3& p) const override;
 
@@ -31,6 +34,8 @@ class SplineSurface final : public Surface {
   void choose_lines();
   void build_grid();
   Foot foot(const Vec3& local) const;
+  Foot foot_from(const Vec3& local, const NearestPoint& nearest) const;
+  double cell_size(Index item) const;
   Foot newton(const Vec3& local, double u, double v, double small_step) const;
   bool regular(const SurfaceJet& jet, double least) const;
   SurfaceJet inner_jet(double u, double v, double fraction) const;

@@ -9,6 +9,8 @@ class Surface {
  public:
   virtual ~Surface() = default;
   virtual Vec3 project(const Vec3& p) const = 0;
+  // The same where the surface's own normal is not opposite to `side`, if it is so anywhere.
+  virtual Vec3 project(const Vec3& p, const Vec3& /*side*/) const { return project(p); }
   // Unit normal at the projection of p; its side is the surface's own, constant on each sheet. Zero at an
   // apex.
   virtual Vec3 normal(const Vec3& p) const = 0;

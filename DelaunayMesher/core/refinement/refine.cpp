@@ -328,6 +328,7 @@ class Refinement {
   bool split_triangle(Index t, Index hint) {
     const Triangle q = mesh_.boundary.corners(t);
     const Sphere circle = circumcircle(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
+    const Vec3 normal = area_vector(tets_.point(q[0]), tets_.point(q[1]), tets_.point(q[2]));
     const double radius = std::sqrt(circle.radius2);
     if (!(radius >= kTriangleFloor * edge_size(circle.centre)) || !std::isfinite(radius)) return false;
     if (static_cast<Index>(failures_.size()) <= t) failures_.resize(mesh_.boundary.slot_count());
@@ -342,7 +343,8 @@ class Refinement {
     for (int k = 0; k < kTries && (k < kHopeless || best < kRejected); ++k) {
       Random random(context_.seed, q[0], q[1], q[2], k, 3);
       const double f = std::min(kLargestSurfacePick, kFirstPick + kPickStep * k);
-      const Vec3 site = geometry_.project_to_face(face, circle.centre + (f * radius) * random.in_ball());
+      const Vec3 site =
+          geometry_.project_to_face(face, circle.centre + (f * radius) * random.in_ball(), normal);
       const SiteVerdict verdict = boundary_site_.propose(site, near, t, -1, -1);
       if (verdict == SiteVerdict::segment) {
         remember_segment(boundary_site_.swallowed_segment());

@@ -142,7 +142,8 @@ bool PatchRemesher::insert_near_centre(Index t) {
   Random random(seed_, 0x66616365, face_, patch_.vertex_count());
   const Vec3 wanted = circle.centre + kDisplacement * circle.radius * random.in_ball();
   if (locate(t, wanted) < 0) return false;
-  const Vec3 p = geometry_.project_to_face(face_, wanted);
+  const Vec3 normal = patch_.normals[v[0]] + patch_.normals[v[1]] + patch_.normals[v[2]];
+  const Vec3 p = geometry_.project_to_face(face_, wanted, normal);
   if (!(distance(p, wanted) < 0.7 * circle.radius)) return false;
   const Index s = locate(t, p);
   if (s < 0) return false;
@@ -205,7 +206,7 @@ bool PatchRemesher::split_longest(Index t) {
 bool PatchRemesher::split_at_middle(Index e) {
   const Index a = patch_.origin(e), b = patch_.target(e), c = patch_.apex(e), d = patch_.apex(patch_.twin[e]);
   const Vec3 middle = 0.5 * (points()[a] + points()[b]);
-  const Vec3 p = geometry_.project_to_face(face_, middle);
+  const Vec3 p = geometry_.project_to_face(face_, middle, patch_.normals[a] + patch_.normals[b]);
   if (!(distance(p, middle) < 0.5 * distance(points()[a], points()[b]))) return false;
   const Vec3 &pa = points()[a], &pb = points()[b], &pc = points()[c], &pd = points()[d];
   const double shape_before = std::min(triangle_shape(pa, pb, pc), triangle_shape(pb, pa, pd));

@@ -192,7 +192,7 @@ bool PatchRemesher::split_arc(Index a, Index b) {
   if (e < 0 || patch_.twin[e] < 0) return false;
   const Vec3 na = patch_.normals[a], nb = patch_.normals[b];
   const Vec3 middle = 0.5 * (points()[a] + points()[b]) + rise(a, b);
-  const Vec3 p = geometry_.project_to_face(face_, middle);
+  const Vec3 p = geometry_.project_to_face(face_, middle, na + nb);
   if (!(distance(p, middle) < 0.25 * distance(points()[a], points()[b]))) return false;
   const Index x = patch_.add_vertex(p, VertexKind::interior, -1);
   set_vertex(x, p, na + nb);

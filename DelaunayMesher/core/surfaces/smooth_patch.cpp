@@ -64,7 +64,7 @@ void PatchRemesher::smooth(int sweeps) {
     for (Index v = 0; v < patch_.vertex_count(); ++v) {
       if ((v & 255) == 0) poll_();
       if (patch_.kinds[v] != VertexKind::interior || patch_.corner_of(v) < 0) continue;
-      const Vec3 p = geometry_.project_to_face(face_, smoothed_position(v));
+      const Vec3 p = geometry_.project_to_face(face_, smoothed_position(v), patch_.normals[v]);
       if (!(distance(p, points()[v]) < 2 * patch_.lengths[v])) continue;
       if (star_stays(v, p)) set_vertex(v, p, patch_.normals[v]);
     }
@@ -81,7 +81,8 @@ void PatchRemesher::jitter() {
     double amplitude = options_.jitter * patch_.lengths[v];
     for (int attempt = 0; attempt < 3; ++attempt, amplitude /= 2) {
       Random random(seed_, 0x6a697474, face_, v, attempt);
-      const Vec3 p = geometry_.project_to_face(face_, points()[v] + amplitude * random.in_ball());
+      const Vec3 p =
+          geometry_.project_to_face(face_, points()[v] + amplitude * random.in_ball(), patch_.normals[v]);
       if (star_angle(v, p) > std::max(before, kGoodCosine) || !star_stays(v, p)) continue;
       set_vertex(v, p, patch_.normals[v]);
       break;

@@ -63,7 +63,45 @@ SplineSurfaceRecord moved(SplineSurfaceRecord s, double scale, const Vec3& shift
   return s;
 }
 
+// A sheet three quarters round the z axis and back inside of itself: two sheets, nearer to each other than a
+// grid of either is to it.
+constexpr double kHairpinGap = 0.005;
+SplineSurfaceRecord hairpin() {
+  constexpr int n = 28;
+  SplineSurfaceRecord s;
+  s.degree_u = 3, s.degree_v = 1;
+  s.nu = 2 * n, s.nv = 2;
+  for (int i = 0; i < 2 * n; ++i) {
+    const double angle = 1.5 * pi * std::min(i, 2 * n - 1 - i) / (n - 1);
+    const double radius = i < n ? 1 + kHairpinGap : 1;
+    for (const double z : {0.0, 1.0})
+      s.poles.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+  }
+  s.knots_u = uneven_knots(3, 2 * n, 1.0);
+  s.knots_v = {0, 0, 1, 1};
+  return s;
+}
+
 }  // namespace
+
+TEST_CASE("two sheets of one surface at next to no distance: the nearest point is on the nearer one") {
+  check_projection(hairpin(), 0.4 * kHairpinGap, 1e-12);
+  check_nearest(hairpin(), 0.2);
+}
+
+TEST_CASE("two sheets of one surface: the side says which one") {
+  const BSplineSurface exact(hairpin());
+  const SplineSurface surface(hairpin());
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const double u = uniform(random, 0.01, 0.45) + 0.54 * (i % 2), v = random.uniform();
+    const Vec3 on = exact.origin() + exact.point(u, v);
+    const SurfaceJet jet = exact.jet(u, v);
+    const Vec3 normal = normalized(cross(jet.u, jet.v));
+    for (const double height : {-5.0, -0.9, 0.9, 5.0})  // the other sheet is nearer on one side
+      CHECK(distance(surface.project(on + height * kHairpinGap * normal, normal), on) < 1e-12);
+  }
+}
 
 TEST_CASE("derivatives agree with finite differences for every degree") {
   for (int degree : {1, 2, 3, 5, 9, 14, 25}) {
