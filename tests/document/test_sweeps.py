@@ -196,3 +196,21 @@ def test_elements_at_a_notch_are_not_excused_by_its_angle():
         bad += DelaunayMesher.mesh(notched, **options).below_target
     assert any(np.hypot(item["place"][0] - 5, item["place"][2] - 4) < 1 for item in bad)
     assert all(item["reason"] == "fallback" for item in bad)
+
+
+@pytest.mark.parametrize("radius", [0.02, 0.005])
+def test_tiny_fillets_on_all_edges_are_absorbed(radius):
+    """With points of the tessellation inside them: the balls at the corners, the rings round the hole."""
+    block = Part.makeBox(40, 30, 20).cut(Part.makeCylinder(6, 30, V(16, 14, -5)))
+    mesh = DelaunayMesher.mesh(block.makeFillet(radius, block.Edges), max_size=3.0, threads=1)
+    assert len(mesh.tets) < 1.3 * len(DelaunayMesher.mesh(block, max_size=3.0, threads=1).tets)
+    assert mesh.quality["min_dihedral"] > 25
+
+
+@pytest.mark.parametrize("gap", [0.01, 5e-4])
+@pytest.mark.parametrize("radius", [5, 6, 8])
+def test_a_neck_of_a_face_between_two_points_of_its_curves(radius, gap):
+    """A boss whose circle comes that near to the edge of the block: the large face is narrow there."""
+    part = Part.makeBox(40, 30, 10).fuse(Part.makeCylinder(radius, 8, V(20, radius + gap, 10)))
+    mesh = DelaunayMesher.mesh(part, max_size=3.0, threads=1)
+    assert mesh.quality["min_dihedral"] > 25

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "surfaces/plc_editor.h"
+#include "surfaces/strip_flips.h"
 #include "surfaces/tips.h"
 
 namespace dm {
@@ -13,13 +14,13 @@ namespace {
 constexpr double kFacing = 1.2;  // distance of a point that faces another, over the distance of its curve
 constexpr double kCorner = 2;    // ... from where two curves meet: 30 degrees
 constexpr double kTip = 6;       // ... in a tip: 10 degrees
-constexpr double kThin = 3;      // heights of triangles that may be flipped, over the tolerance
-constexpr double kBulging = 6;   // ... between two curves that are nearer to each other than it
+constexpr double kReach = 3;     // ... of a segment from the point that faces it, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
+constexpr double kWorth = 0.2;   // width of a neck that is worth the steps at its ends, over the tolerance
 constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
 constexpr double kBeside = 2;    // tolerances from a vertex of the other curve, which faces this one as well
 constexpr double kBent = 0.2;    // width of a strip over the radius of its curves: more would change a hole
-constexpr double kFlipMargin = 1e-9;    // of sums of angles, against flipping back and forth
+constexpr double kOpposite = -0.2;      // cosine between the ways to two curves that a point lies between
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 constexpr int kBisections = 20;
 constexpr int kMostRounds = 3;  // in which a face is searched
@@ -31,6 +32,7 @@ class Finder {
         geometry_(geometry),
         tolerance_(tolerance),
         editor_(plc),
+        flips_(plc, geometry, tolerance, sharp_, editor_),
         kept_face_(plc.face_solids.size(), 0),
         kept_edge_(plc.edge_count, 0),
         bounds_(plc.edge_count, 1) {
@@ -41,6 +43,7 @@ class Finder {
 
   std::vector<SmallFeature> run() {
     collect_edges();
+    collect_outlines();
     tips_ = find_tips(plc_, geometry_, tolerance_);
     std::erase_if(tips_, [&](const Tip& tip) { return kept_edge_[tip.edge] || kept_edge_[tip.other_edge]; });
     const std::vector<Index> faces = faces_with_narrow_places();
@@ -66,6 +69,20 @@ class Finder {
         const Index s = editor_.segment(a, b);
         if (s >= 0) kept_edge_[plc_.segment_edge[s]] = 1;
       }
+  }
+
+  void collect_outlines() {
+    outlines_.resize(plc_.face_solids.size());
+    for (std::size_t t = 0; t < plc_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const auto [a, b] = editor_.side(static_cast<Index>(t), i);
+        const Index s = on_curve(a) && on_curve(b) ? editor_.segment(a, b) : -1;
+        if (s >= 0) outlines_[plc_.triangle_face[t]].push_back(plc_.segment_edge[s]);
+      }
+    for (std::vector<Index>& edges : outlines_) {
+      std::sort(edges.begin(), edges.end());
+      edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    }
   }
 
   void collect_edges() {
@@ -124,7 +141,7 @@ class Finder {
     if (!on_curve(a) || !on_curve(b) || !on_curve(p)) return false;
     const Vec3 along = at(b) - at(a);
     const double t = dot(at(p) - at(a), along) / norm2(along), limit = tolerance_(at(p));
-    if (!(t > 0 && t < 1) || norm2(at(a) + t * along - at(p)) > kThin * kThin * limit * limit) return false;
+    if (!(t > 0 && t < 1) || norm2(at(a) + t * along - at(p)) > kReach * kReach * limit * limit) return false;
     const Index s = segment(a, b);
     if (s < 0) return false;
     const Index edge = plc_.segment_edge[s];
@@ -160,16 +177,39 @@ class Finder {
       b = next;
     }
     if (b < 0) return !editor_.is_on(a, tip.other_edge);
+    const Vec3 place = place_of_width(tip, a, b, widest);
+    if (is_clear(place, a, b) && !is_faced(place, tip)) divide(segment(a, b), place, tip.face);
+    return true;
+  }
+
+  // Between a, where the tip is narrower, and b.
+  Vec3 place_of_width(const Tip& tip, Index a, Index b, double width) const {
     double low = 0, high = 1;
     for (int step = 0; step < kBisections; ++step) {
       const double t = 0.5 * (low + high);
-      (gap_at(tip, on_edge(tip, a, b, t)) < widest ? low : high) = t;
+      (gap_at(tip, on_edge(tip, a, b, t)) < width ? low : high) = t;
     }
-    const Vec3 place = on_edge(tip, a, b, low);
-    if (std::min(distance(place, at(a)), distance(place, at(b))) >= tolerance_(place) &&
-        !is_faced(place, tip))
-      divide(segment(a, b), place, tip.face);
-    return true;
+    return on_edge(tip, a, b, low);
+  }
+  bool is_clear(const Vec3& place, Index a, Index b) const {
+    return std::min(distance(place, at(a)), distance(place, at(b))) >= tolerance_(place);
+  }
+
+  // A neck, where a curve comes near another one between two of its points: divides it on both sides of p
+  // where the neck becomes as wide as a narrow part may be.  The new points.
+  std::vector<Index> cut_neck(Index face, Index p, Index other) {
+    std::vector<Index> made;
+    const double limit = tolerance_(at(p));
+    if (is_vertex(p) || distance(at(p), geometry_.project_to_edge(other, at(p))) > kWorth * limit)
+      return made;
+    const Tip tip{face, p, editor_.edges_of(p)[0], other};
+    const Index before = next_on(tip.edge, -1, p), after = next_on(tip.edge, before, p);
+    for (const Index q : {before, after}) {
+      if (q < 0 || gap_at(tip, at(q)) < limit) continue;
+      const Vec3 place = place_of_width(tip, p, q, kTipEnd * kPart * limit);
+      if (is_clear(place, p, q)) made.push_back(divide(segment(p, q), place, face));
+    }
+    return made;
   }
 
   // Beside a vertex of the other curve, or a point of it where the tip is narrow enough: that faces this
@@ -214,11 +254,12 @@ class Finder {
       for (int i = 0; i < 3 && !narrow; ++i) {
         const Index a = v[i], b = v[(i + 1) % 3], p = v[(i + 2) % 3];
         Vec3 place;
-        narrow = is_short(a, b) || passes(a, b, p, place);
+        narrow = is_short(a, b) || passes(a, b, p, place) ||
+                 (on_curve(a) && distance(at(a), at(p)) < tolerance_(at(p)) &&
+                  lies_between(outlines_[plc_.triangle_face[t]], p));
       }
       // Its corners may face no segment of each other, though.
-      narrow = narrow || (height(v[0], v[1], v[2]) < kBulging * tolerance_(at(v[0])) &&
-                          strip_of({v[0], v[1], v[2], v[2]}).width > 0);
+      narrow = narrow || flips_.is_in_strip(v);
     }
     for (const Tip& tip : tips_) found[tip.face] = 1;
     std::vector<Index> faces;
@@ -258,23 +299,29 @@ class Finder {
     for (const Tip& tip : tips_)
       if (tip.face == face) {
         if (!cut_tip(tip)) cut_tip({tip.face, tip.point, tip.other_edge, tip.edge});
-        drop_points(tip);
+        drop_points(face, [&](Index p) { return lies_in(tip, p); });
       }
+    drop_points(face, [&](Index p) { return lies_between(outlines_[face], p); });
     std::vector<Segment> open;
     for (const auto& [ends, t] : editor_.sides()) open.push_back(ends);
-    flip(open);
+    flips_.run(open, steps_);
     while (!open.empty() && steps_ > 0) {
       const Segment ends = open.back();
       open.pop_back();
       const Index left = editor_.left_of(ends);
       Vec3 place;
       if (left < 0 || !passes(ends[0], ends[1], editor_.apex(left, ends), place)) continue;
-      const Index v = divide(segment(ends[0], ends[1]), place, face);
+      const Index s = segment(ends[0], ends[1]), other = plc_.segment_edge[s];
+      const Index p = editor_.apex(left, ends), v = divide(s, place, face);
       std::vector<Segment> around;
-      for (const Index t : editor_.triangles_round(v))
-        if (plc_.triangle_face[t] == face)
-          for (int i = 0; i < 3; ++i) around.push_back(editor_.side(t, i));
-      flip(around);
+      const auto add_sides_at = [&](Index point) {
+        for (const Index t : editor_.triangles_round(point))
+          if (plc_.triangle_face[t] == face)
+            for (int i = 0; i < 3; ++i) around.push_back(editor_.side(t, i));
+      };
+      add_sides_at(v);
+      for (const Index end : cut_neck(face, p, other)) add_sides_at(end);
+      flips_.run(around, steps_);
       open.push_back({ends[0], v});
       open.push_back({v, ends[1]});
     }
@@ -285,21 +332,17 @@ class Finder {
     return editor_.divide(segment, place, face);
   }
 
-  double height(Index a, Index b, Index c) const {
-    const double longest2 = std::max({norm2(at(b) - at(a)), norm2(at(c) - at(b)), norm2(at(a) - at(c))});
-    return norm(area_vector(at(a), at(b), at(c))) / std::sqrt(longest2);
-  }
-
-  // Points of the tessellation inside the tip would lie between points that face each other.
-  void drop_points(const Tip& tip) {
-    std::vector<Index> stack = editor_.triangles_of(tip.face);
+  // Points of the tessellation inside a tip or a strip would lie between points that face each other.
+  template <class Lies>
+  void drop_points(Index face, Lies lies_inside) {
+    std::vector<Index> stack = editor_.triangles_of(face);
     while (!stack.empty() && steps_ > 0) {
       const Index t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
         const auto [a, b] = editor_.side(t, i);
         const Index p = editor_.apex(t, {a, b});
-        if (p < 0 || !on_curve(a) || !on_curve(b) || on_curve(p) || !lies_in(tip, p)) continue;
+        if (p < 0 || !on_curve(a) || !on_curve(b) || on_curve(p) || !lies_inside(p)) continue;
         const std::vector<Index> fan = editor_.triangles_round(p);
         if (!drop(p, fan)) continue;
         --steps_;
@@ -318,103 +361,28 @@ class Finder {
     return std::any_of(around.begin(), around.end(),
                        [&](const auto& to) { return editor_.collapse(p, std::get<Index>(to)); });
   }
+  // Is a point inside a face nearer than the tolerance to two of its curves, on opposite sides?
+  bool lies_between(const std::vector<Index>& outline, Index p) const {
+    if (on_curve(p)) return false;
+    const double limit = tolerance_(at(p));
+    std::vector<std::pair<Index, Vec3>> near;  // curve, from p to it
+    for (const Index e : outline) {
+      const Vec3 to = geometry_.project_to_edge(e, at(p)) - at(p);
+      if (!kept_edge_[e] && norm(to) < limit) near.emplace_back(e, to);
+    }
+    for (std::size_t i = 0; i < near.size(); ++i)
+      for (std::size_t j = i + 1; j < near.size(); ++j) {
+        const auto& [e, u] = near[i];
+        const auto& [f, v] = near[j];
+        if (!(dot(u, v) < kOpposite * norm(u) * norm(v)) || !(norm(u - v) < limit)) continue;
+        if (tiny_edge(e) && tiny_edge(f)) return true;
+        if (norm(u - v) < std::max(bent_width(e, at(p) + u), bent_width(f, at(p) + v))) return true;
+      }
+    return false;
+  }
   bool lies_in(const Tip& tip, Index p) const {
     const double limit = tolerance_(at(p));
     return gap_at(tip, at(p)) < limit && distance(at(p), geometry_.project_to_edge(tip.edge, at(p))) < limit;
-  }
-
-  // Lawson flips among thin triangles.
-  void flip(std::vector<Segment> stack) {
-    while (!stack.empty() && steps_ > 0) {
-      const Segment ends = stack.back();
-      stack.pop_back();
-      const Index s = editor_.left_of(ends), t = editor_.left_of({ends[1], ends[0]});
-      if (s < 0 || t < 0 || segment(ends[0], ends[1]) >= 0) continue;
-      if (!wants_flip(ends[0], ends[1], editor_.apex(s, ends), editor_.apex(t, ends))) continue;
-      --steps_;
-      editor_.flip(ends, s, t);
-      for (const Index u : {s, t})
-        for (int i = 0; i < 3; ++i) stack.push_back(editor_.side(u, i));
-    }
-  }
-
-  bool may_flip(Index a, Index b, Index c, double heights) const {
-    return height(a, b, c) <= heights * tolerance_(at(a)) || sharp_.contains(a) || sharp_.contains(b) ||
-           sharp_.contains(c);
-  }
-
-  using Quad = std::array<Vec3, 4>;
-
-  // Of the triangles (a, b, c) and (b, a, d): both thin or in the fan round a tip, the new ones facing as the
-  // old, and better: the angles at c and d over 180 degrees together, or across a strip the shorter side.
-  bool wants_flip(Index a, Index b, Index c, Index d) const {
-    if (c == d || editor_.has_side(c, d)) return false;
-    if (!may_flip(a, b, c, kBulging) || !may_flip(b, a, d, kBulging)) return false;
-    const Strip strip = strip_of({a, b, c, d});
-    const bool in_strip = strip.width > 0;
-    if (!in_strip && !(may_flip(a, b, c, kThin) && may_flip(b, a, d, kThin))) return false;
-    const Quad real{at(a), at(b), at(c), at(d)};
-    const auto& [pa, pb, pc, pd] = in_strip ? unrolled({a, b, c, d}, strip) : real;
-    const Vec3 n1 = area_vector(pa, pb, pc), n2 = area_vector(pb, pa, pd);
-    const Vec3 m1 = area_vector(pc, pa, pd), m2 = area_vector(pd, pb, pc);
-    const Vec3 n = n1 + n2;
-    if (!(dot(m1, n) > 0 && dot(m2, n) > 0)) return false;
-    if (in_strip) return norm2(real[2] - real[3]) < (1 - kFlipMargin) * norm2(real[0] - real[1]);
-    const double s1 = norm(n1), s2 = norm(n2);
-    const double d1 = dot(pa - pc, pb - pc), d2 = dot(pa - pd, pb - pd);
-    return s1 * d2 + s2 * d1 < -kFlipMargin * (std::abs(s1 * d2) + std::abs(s2 * d1));
-  }
-
-  // Two curves nearer to each other than the tolerance; none if the width is 0.
-  struct Strip {
-    Index one = -1, other = -1;
-    double width = 0;
-  };
-
-  // The strip that has all these points on its two curves: one of them is a curve of the point with the
-  // fewest, as hundreds may meet at a vertex.
-  Strip strip_of(const std::array<Index, 4>& points) const {
-    const auto fewer = [&](Index p, Index q) {
-      return editor_.edges_of(p).size() < editor_.edges_of(q).size();
-    };
-    for (const Index one : editor_.edges_of(*std::min_element(points.begin(), points.end(), fewer))) {
-      const auto is_off = [&](Index p) { return !editor_.is_on(p, one); };
-      const auto across = std::find_if(points.begin(), points.end(), is_off);
-      if (across == points.end()) continue;
-      for (const Index other : editor_.edges_of(*across))
-        if (const double width = width_between(one, other, points); width > 0) return {one, other, width};
-    }
-    return {};
-  }
-
-  // Largest exact distance of the points of one curve from the other; 0 where a point is on neither, or
-  // further away than the tolerance.
-  double width_between(Index one, Index other, const std::array<Index, 4>& points) const {
-    double width = 0;
-    for (const Index p : points) {
-      const bool on_one = editor_.is_on(p, one), on_other = editor_.is_on(p, other);
-      if (!on_one && !on_other) return 0;
-      if (on_one && on_other) continue;
-      const double w = distance(at(p), geometry_.project_to_edge(on_one ? other : one, at(p)));
-      if (w > tolerance_(at(p))) return 0;
-      width = std::max(width, w);
-    }
-    return width;
-  }
-
-  // Places along a strip and across it.  In space triangles between two curves that are nearer to each other
-  // than their segments bulge lie over one another.
-  Quad unrolled(const std::array<Index, 4>& points, const Strip& strip) const {
-    Vec3 along;
-    for (const Index p : points)
-      if (const Vec3 d = at(p) - at(points[0]); norm2(d) > norm2(along)) along = d;
-    Quad flat;
-    for (int i = 0; i < 4; ++i) {
-      const double side =
-          1.0 * editor_.is_on(points[i], strip.other) - 1.0 * editor_.is_on(points[i], strip.one);
-      flat[i] = {dot(at(points[i]) - at(points[0]), along) / norm(along), 0.5 * side * strip.width, 0.0};
-    }
-    return flat;
   }
 
   // The short sides, by sets of triangles that hang together.
@@ -446,31 +414,41 @@ class Finder {
         }
       }
       SmallFeature feature(pairs.begin(), pairs.end());
-      if (tip && triangles < editor_.triangles_of(face).size()) {
-        std::erase_if(feature, [&](const auto& pair) { return !is_narrow({pair}); });
-        if (!feature.empty()) found_.push_back(std::move(feature));
-        continue;
-      }
-      // Unless nothing is left, one side across closes no strip: it would only move the tip of a wedge.
-      const bool edge = feature.size() == 1 && segment(feature[0].first, feature[0].second) >= 0;
       const bool all = triangles == editor_.triangles_of(face).size();
-      if (edge || all || (feature.size() > 1 && is_narrow(feature))) found_.push_back(std::move(feature));
+      if (!all) feature = worth_absorbing(std::move(feature), tip);
+      if (!feature.empty()) found_.push_back(std::move(feature));
     }
   }
 
-  // Part of a face ends where it is as wide as the tolerance; the step that this leaves must be worth it.
-  bool is_narrow(const SmallFeature& feature) const {
-    return width_of(feature, plc_.points) < kPart * tolerance_(at(feature[0].first));
+  // What is absorbed of a part of a face.  It ends where the face is as wide as the tolerance; the step that
+  // this leaves must be worth it.  One side across closes no strip but at a tip: it would only move the tip
+  // of a wedge.
+  SmallFeature worth_absorbing(SmallFeature feature, bool tip) const {
+    if (feature.size() == 1 && segment(feature[0].first, feature[0].second) >= 0) return feature;
+    SmallFeature narrow;
+    for (const auto& pair : feature)
+      if (width_of({pair}, plc_.points) < kPart * tolerance_(at(pair.first))) narrow.push_back(pair);
+    if (tip) return narrow;
+    const bool strip = narrow.size() == feature.size();
+    if (feature.size() < 2 || !(strip || is_neck(narrow))) return {};
+    return narrow.size() > 1 ? narrow : feature;
+  }
+  bool is_neck(const SmallFeature& feature) const {
+    return std::any_of(feature.begin(), feature.end(), [&](const auto& pair) {
+      return distance(at(pair.first), at(pair.second)) < kWorth * tolerance_(at(pair.first));
+    });
   }
 
   Plc& plc_;
   const Geometry& geometry_;
   const Tolerance& tolerance_;
   PlcEditor editor_;
+  StripFlips flips_;
   std::vector<char> kept_face_, kept_edge_;
   std::vector<char> bounds_;    // by edge: it bounds the face at hand
   std::vector<double> length_;  // by edge, as its ends
   std::vector<std::vector<Index>> ends_;
+  std::vector<std::vector<Index>> outlines_;  // by face: its edges
   std::vector<Tip> tips_;
   std::set<Index> sharp_;  // of the face at hand: points of its tips
   std::size_t steps_ = 0;  // left for the face at hand

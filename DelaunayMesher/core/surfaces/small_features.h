@@ -7,8 +7,10 @@
 // triangle there have a side across, also where the segments bulge further than the face is wide.  These
 // sides, and tiny edges, are the pairs of points.
 // Where two curves run together in a sharp tip, one of them is divided at the width that may just be
-// absorbed.  Connected ones belong together: a strip is absorbed at both of its ends or not at all.  Cost:
-// linear, and logarithmic in the size of faces with narrow places.
+// absorbed; so is one that comes near another between two of its points, on both sides of the neck.  Points
+// of the tessellation inside tips and strips are left out.  Connected ones belong together: a strip is
+// absorbed at both of its ends or not at all.  Cost: linear, and logarithmic in the size of faces with narrow
+// places.
 #pragma once
 
 #include <functional>
