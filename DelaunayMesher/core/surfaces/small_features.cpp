@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/box_tree.h"
 #include "surfaces/plc_editor.h"
 #include "surfaces/strip_flips.h"
 #include "surfaces/tips.h"
@@ -17,9 +18,10 @@ constexpr double kTip = 6;       // ... in a tip: 10 degrees
 constexpr double kReach = 3;     // ... of a segment from the point that faces it, over the tolerance
 constexpr double kPart = 0.8;    // largest width of a narrow part of a face, over the tolerance
 constexpr double kWorth = 0.2;   // width of a neck that is worth the steps at its ends, over the tolerance
-constexpr double kTipEnd = 0.9;  // width where a tip is cut off, over that of the widest narrow part
-constexpr double kBeside = 2;    // tolerances from a vertex of the other curve, which faces this one as well
-constexpr double kBent = 0.2;    // width of a strip over the radius of its curves: more would change a hole
+constexpr double kNeckLength = 100;  // ... largest length: two elements
+constexpr double kTipEnd = 0.9;      // width where a tip is cut off, over that of the widest narrow part
+constexpr double kBeside = 2;  // tolerances from a vertex of the other curve, which faces this one as well
+constexpr double kBent = 0.2;  // width of a strip over the radius of its curves: more would change a hole
 constexpr double kOpposite = -0.2;      // cosine between the ways to two curves that a point lies between
 constexpr std::size_t kMostSteps = 20;  // per triangle of a face
 constexpr int kBisections = 20;
@@ -204,8 +206,9 @@ class Finder {
       return made;
     const Tip tip{face, p, editor_.edges_of(p)[0], other};
     const Index before = next_on(tip.edge, -1, p), after = next_on(tip.edge, before, p);
+    if (before < 0 || after < 0 || std::min(gap_at(tip, at(before)), gap_at(tip, at(after))) < limit)
+      return made;
     for (const Index q : {before, after}) {
-      if (q < 0 || gap_at(tip, at(q)) < limit) continue;
       const Vec3 place = place_of_width(tip, p, q, kTipEnd * kPart * limit);
       if (is_clear(place, p, q)) made.push_back(divide(segment(p, q), place, face));
     }
@@ -433,10 +436,16 @@ class Finder {
     if (feature.size() < 2 || !(strip || is_neck(narrow))) return {};
     return narrow.size() > 1 ? narrow : feature;
   }
+  // Far narrower at some place, and not much longer than an element: a long strip that widens is kept.
   bool is_neck(const SmallFeature& feature) const {
-    return std::any_of(feature.begin(), feature.end(), [&](const auto& pair) {
-      return distance(at(pair.first), at(pair.second)) < kWorth * tolerance_(at(pair.first));
-    });
+    Box box;
+    double narrowest = HUGE_VAL, limit = HUGE_VAL;
+    for (const auto& [p, q] : feature) {
+      box.add(at(p));
+      narrowest = std::min(narrowest, distance(at(p), at(q)));
+      limit = std::min(limit, tolerance_(at(p)));
+    }
+    return narrowest < kWorth * limit && norm(box.extent()) < kNeckLength * limit;
   }
 
   Plc& plc_;
