@@ -136,7 +136,7 @@ OPTIONS = (
     ),
     Option(
         "max_elements", "int", 0, 0, 2**31 - 1,
-        "refuse to start when more tetrahedra are to be expected; 0: as many as fit into memory",
+        "no mesh when it would have more tetrahedra; 0: as many as fit into memory",
         "MaxElements", "App::PropertyInteger", "Run", "Max elements", metavar="N",
     ),
 )  # fmt: skip

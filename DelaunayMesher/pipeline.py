@@ -67,7 +67,8 @@ def mesh_all(core, plcs, converted, options, report):
         total = len(done) + 1 + len(waiting)
         tell = _share(report, len(done) / total, 1.0 / total) if total > 1 else report
         try:
-            result = core.mesh(plc.as_dict(), plc.geometry, options_for_core(options, plc), tell)
+            made = sum(len(result["tets"]) for result in results)
+            result = core.mesh(plc.as_dict(), plc.geometry, options_for_core(options, plc, made), tell)
         except MeshCancelled:
             raise
         except MeshError as error:
@@ -158,8 +159,8 @@ def to_plcs(source, options, keep=()):
     return list(converted.plcs), source, converted
 
 
-def options_for_core(options, plc):
-    """The options dict of the extension."""
+def options_for_core(options, plc, made=0):
+    """The options dict of the extension; made: elements of the PLCs before, which count too."""
     points = np.zeros((0, 3)) if options.size_points is None else options.size_points
     values = np.zeros(0) if options.size_values is None else options.size_values
     return {
@@ -173,7 +174,8 @@ def options_for_core(options, plc):
         "order": options.order,
         "seed": options.seed,
         "threads": options.used_threads(),
-        "max_elements": options.max_elements or elements_that_fit(),
+        "max_elements": options.max_elements or elements_that_fit(made),
+        "elements_before": made,
         **sizing.sizes_by_name(options.sizes, plc),
         "regions": sizing.regions_array(options.regions),
         "size_points": points,
@@ -181,11 +183,12 @@ def options_for_core(options, plc):
     }
 
 
-def elements_that_fit():
-    """Number of tetrahedra that fit into the free memory; 0 when the system does not tell."""
+def elements_that_fit(made):
+    """Number of tetrahedra that fit into the memory, some of which are made and in it already; 0 when the
+    system does not tell."""
     try:
         with open("/proc/meminfo") as file:
             free = next(int(line.split()[1]) * 1024 for line in file if line.startswith("MemAvailable"))
     except (OSError, StopIteration, ValueError):
         return 0
-    return max(1000, min(free // BYTES_PER_ELEMENT, 2**31 - 1))
+    return made + max(1000, min(free // BYTES_PER_ELEMENT, 2**31 - 1))

@@ -145,6 +145,32 @@ def test_too_many_elements():
         DelaunayMesher.mesh(box(), max_size=1e-8)
 
 
+def test_the_limit_of_elements_counts_what_no_size_asks_for():
+    bars = joined(*(box((2 * k, 0, 0), (2 * k + 1, 1, 20)) for k in range(10)))
+    options = {"max_size": 10, "elements_across": 0}
+    fits = DelaunayMesher.mesh(bars, **options)
+    count = len(fits.tets)
+    assert 50 * fits.statistics["predicted_tetrahedra"] < count
+    limited = DelaunayMesher.mesh(bars, max_elements=count, **options)
+    assert limited.points.tobytes() == fits.points.tobytes()
+    with pytest.raises(
+        MeshError, match=r"\d+ triangles, so the mesh has \d+ tetrahedra at the least"
+    ) as caught:
+        DelaunayMesher.mesh(bars, max_elements=count // 5, **options)
+    assert (caught.value.stage, caught.value.code) == ("surfaces", "too_many_elements")
+    with pytest.raises(MeshError, match=r"\d+ tetrahedra are made already, more than the limit") as caught:
+        DelaunayMesher.mesh(bars, max_elements=count // 2, **options)
+    assert (caught.value.stage, caught.value.code) == ("refinement", "too_many_elements")
+
+
+def test_the_limit_of_elements_holds_for_all_pieces_together():
+    crossing = joined(box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5)))
+    count = len(DelaunayMesher.mesh(crossing, max_size=0.2).tets)
+    assert len(DelaunayMesher.mesh(crossing, max_size=0.2, max_elements=2 * count).tets) == count
+    with pytest.raises(MeshError, match="sizes ask for about"):
+        DelaunayMesher.mesh(crossing, max_size=0.2, max_elements=round(0.75 * count))
+
+
 def test_cancel_and_progress():
     seen = []
 

@@ -153,7 +153,7 @@ MesherOptions read_options(const nb::dict& options) {
   result.target_angle = get<double>(options, "target_angle");
   result.optimise = get<bool>(options, "optimise");
   result.order = get<int>(options, "order");
-  result.max_elements = get<std::int64_t>(options, "max_elements");
+  result.limit = {get<std::int64_t>(options, "max_elements"), get<std::int64_t>(options, "elements_before")};
   return result;
 }
 

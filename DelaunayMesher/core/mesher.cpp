@@ -31,16 +31,6 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void refuse_if_too_many(const SizeField& size, std::int64_t limit) {
-  const double predicted = size.predicted_tetrahedra();
-  if (limit <= 0 || predicted <= static_cast<double>(limit)) return;
-  char count[32];
-  std::snprintf(count, sizeof count, predicted < 1e9 ? "%.0f" : "%.0e", predicted);
-  throw Failure("sizing", "too_many_elements",
-                std::string("the sizes ask for about ") + count + " tetrahedra, more than the limit of " +
-                    std::to_string(limit) + "; use a larger size or raise --max-elements");
-}
-
 void record(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
   auto& s = result.statistics;
   const auto add = [&](const char* name, double value) { s.emplace_back(name, value); };
@@ -132,11 +122,12 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   context.begin("sizing");
   const SizeField size(plc, geometry, options.size, context);
   result.warnings.insert(result.warnings.end(), size.warnings().begin(), size.warnings().end());
-  refuse_if_too_many(size, options.max_elements);
+  refuse_sizes(options.limit, size);
   result.statistics.emplace_back("predicted_tetrahedra", size.predicted_tetrahedra());
   clock.stop("sizing");
 
   SurfaceMesh surface = mesh_surfaces(plc, geometry, size, {}, context);
+  refuse_boundary(options.limit, surface, plc);
   clock.stop("surfaces");
 
   RecoveryReport recovery;
@@ -146,7 +137,8 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
 
   RefineReport refinement;
   mark_acute_segments(labelled, kAcuteAngle);
-  refine(labelled, geometry, size, {.target_angle = options.target_angle}, context, refinement);
+  refine(labelled, geometry, size, {.target_angle = options.target_angle, .limit = options.limit}, context,
+         refinement);
   const Index carved = carve_flat_tets(labelled);
   return_freed_memory();
   result.mesh = extract_volume_mesh(std::move(labelled), options.optimise);

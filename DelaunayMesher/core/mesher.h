@@ -12,6 +12,7 @@
 #include "plc/geometry.h"
 #include "plc/plc.h"
 #include "refinement/certificate.h"
+#include "refinement/element_limit.h"
 #include "sizing/size_field.h"
 
 namespace dm {
@@ -21,7 +22,7 @@ struct MesherOptions {
   double target_angle = 20;  // degrees, of the refinement
   bool optimise = true;
   int order = 1;
-  std::int64_t max_elements = 0;  // refuse to start when the prediction exceeds it; 0 = no limit
+  ElementLimit limit;
 };
 
 struct MeshResult {

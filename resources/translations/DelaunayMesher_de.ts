@@ -692,8 +692,8 @@
       <translation>Max. Elemente</translation>
     </message>
     <message>
-      <source>Refuse to start when more tetrahedra are to be expected; 0: as many as fit into memory</source>
-      <translation>Nicht beginnen, wenn mehr Tetraeder zu erwarten sind; 0: so viele, wie in den Speicher passen</translation>
+      <source>No mesh when it would have more tetrahedra; 0: as many as fit into memory</source>
+      <translation>Kein Netz, wenn es mehr Tetraeder hätte; 0: so viele, wie in den Speicher passen</translation>
     </message>
     <message>
       <source>Where the size holds: inside a sphere, a box or a cylinder</source>

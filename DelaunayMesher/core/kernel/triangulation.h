@@ -92,6 +92,8 @@ class Triangulation {
   const std::vector<Vec3>& points() const { return points_; }
   // Slots, free ones included: 0 .. slot_count() - 1.
   Index slot_count() const { return slots_.next; }
+  // Tetrahedra, ghosts included.
+  Index tet_count() const { return slots_.next - static_cast<Index>(slots_.free.size()); }
   bool is_free(Index tet) const { return corners_[tet][0] == free_slot; }
   bool is_ghost(Index tet) const { return corners_[tet][3] == ghost; }
   const Tet& corners(Index tet) const { return corners_[tet]; }

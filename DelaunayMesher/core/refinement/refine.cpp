@@ -53,9 +53,11 @@ class Refinement {
         thin_gaps_(mesh, geometry),
         constrained_search_(mesh.tets),
         boundary_site_(mesh, bound_, target_),
+        count_(mesh.tets, options.limit),
         expected_sites_(std::max(1.0, size.predicted_tetrahedra() / 5.5)) {}
 
   void run() {
+    count_.check();
     tets_.reserve_vertices(tets_.points().size() + static_cast<std::size_t>(kRoom * expected_sites_));
     settle_ears();
     collect();
@@ -176,6 +178,7 @@ class Refinement {
         waiting_[tet] = false;
         if (sliver_mode_) tried_.push_back(tet);
         process(tet);
+        count_.check();
       }
     }
   }
@@ -423,6 +426,7 @@ class Refinement {
   ThinGaps thin_gaps_;
   ConstrainedSearch constrained_search_;
   BoundarySite boundary_site_;
+  ElementCount count_;
   double expected_sites_;
   bool sliver_mode_ = false, constrained_ = false;
   int round_ = 0;

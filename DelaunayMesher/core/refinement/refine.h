@@ -16,12 +16,14 @@
 
 #include "base/context.h"
 #include "boundary/recovery.h"
+#include "refinement/element_limit.h"
 
 namespace dm {
 
 struct RefineOptions {
   double target_angle = 20;  // degrees
   int sliver_rounds = 8;
+  ElementLimit limit;
 };
 
 struct RefineReport {
@@ -30,6 +32,7 @@ struct RefineReport {
   std::int64_t encroached = 0, triangle_splits = 0, segment_splits = 0, flips = 0, slivers = 0;
 };
 
+// Throws Failure("refinement", "too_many_elements").
 void refine(LabelledTriangulation& mesh, const Geometry& geometry, const SizeField& size,
             const RefineOptions& options, Context& context, RefineReport& report);
 

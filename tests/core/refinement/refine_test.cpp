@@ -27,7 +27,8 @@ struct Refined {
   LabelledTriangulation mesh;
   RefineReport report;
 
-  Refined(const shapes::Shape& s, double h, double target = 20, std::uint64_t seed = 1, int threads = 1)
+  Refined(const shapes::Shape& s, double h, double target = 20, std::uint64_t seed = 1, int threads = 1,
+          const ElementLimit& limit = {})
       : plc(s.plc),
         geometry(plc, s.records),
         context(keyed(seed, threads)),
@@ -37,6 +38,7 @@ struct Refined {
     mark_acute_segments(mesh, kAcuteAngle);
     RefineOptions o;
     o.target_angle = target;
+    o.limit = limit;
     refine(mesh, geometry, size, o, context, report);
   }
   static SizeOptions options(double h) {
@@ -123,6 +125,19 @@ TEST_CASE("refine: the same seed gives the same mesh on any number of threads, a
   CHECK(a.tets == b.tets);
   CHECK(std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end()));
   CHECK(a.tets != c.tets);
+}
+
+TEST_CASE("refine: ends when there are one and a half times as many elements as the limit") {
+  const auto shape = shapes::turned(5, 5, 8, 3, 24);
+  const VolumeMesh all = extract_volume_mesh(Refined(shape, 1).mesh);
+  const auto count = static_cast<std::int64_t>(all.tets.size());
+  const auto limited = [&](std::int64_t most, std::int64_t before) {
+    return extract_volume_mesh(Refined(shape, 1, 20, 1, 1, {most, before}).mesh);
+  };
+  CHECK(limited(count * 7 / 10, 0).tets == all.tets);
+  CHECK(limited(count * 17 / 10, count * 3 / 2).tets == all.tets);
+  CHECK_THROWS_AS(limited(count * 3 / 5, 0), Failure);
+  CHECK_THROWS_AS(limited(count * 8 / 5, count * 3 / 2), Failure);
 }
 
 TEST_CASE("refine: boundary points lie on their CAD element") {
