@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from . import extension, joining, sizing, surface_plcs
+from . import extension, joining, sizing, surface_plcs, volumes
 from .cadprocess import CAD_ENDINGS, CadProcess, ending_of
 from .errors import InputError, MeshCancelled, MeshError, entity_name
 from .options import make_options
@@ -88,7 +88,7 @@ def mesh_all(core, plcs, converted, options, report):
             continue
         done.append(plc)
         results.append(result)
-        warnings += plc.warnings
+        warnings += [*plc.warnings, *volumes.volume_warnings(plc, result)]
     return joining.join(results, done), warnings
 
 

@@ -95,6 +95,8 @@ nb::dict mesh(const nb::dict& plc, const nb::object& geometry, const nb::dict& o
   nb::dict out;
   out["below_target"] = below_target(result.below_target);
   put_elements(out, result.mesh, result.second_order, core_options.order == 2);
+  out["surface_volumes"] = to_numpy<double>(std::move(result.surface_volumes));
+  out["tet_volumes"] = to_numpy<double>(std::move(result.tet_volumes));
   out["seconds"] = pairs(result.seconds);
   nb::dict statistics;
   for (const auto& [name, value] : result.statistics) statistics[name.c_str()] = value;

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "boundary/recovery.h"
+#include "boundary/volumes.h"
 #include "refinement/carve.h"
 #include "refinement/extract.h"
 #include "refinement/refine.h"
@@ -128,6 +129,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
 
   SurfaceMesh surface = mesh_surfaces(plc, geometry, size, {}, context);
   refuse_boundary(options.limit, surface, plc);
+  result.surface_volumes = surface_volumes(surface, plc);
   clock.stop("surfaces");
 
   RecoveryReport recovery;
@@ -152,6 +154,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
     clock.stop("optimisation");
   }
   const std::vector<Vec3> left_out = leave_out_flat_tets(result.mesh);
+  result.tet_volumes = tet_volumes(result.mesh, plc.solid_count);
   result.statistics.emplace_back("flat_tetrahedra_left_out", carved + left_out.size());
   if (!left_out.empty()) result.warnings.push_back(left_out_warning(left_out));
   if (options.order == 2) {

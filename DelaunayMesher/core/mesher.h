@@ -27,7 +27,8 @@ struct MesherOptions {
 
 struct MeshResult {
   VolumeMesh mesh;
-  SecondOrder second_order;  // empty for order 1
+  SecondOrder second_order;                          // empty for order 1
+  std::vector<double> surface_volumes, tet_volumes;  // per solid, of the surface mesh and of the result
   std::vector<BelowTarget> below_target;
   std::vector<std::pair<std::string, double>> seconds;     // per stage, in order
   std::vector<std::pair<std::string, double>> statistics;  // counters worth reporting
