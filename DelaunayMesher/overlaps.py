@@ -1,6 +1,6 @@
 """Closed bodies that lie in each other, told from places of one that lie inside another.
 
-For pairs without crossing triangles: one may lie inside the other whole, or pass it exactly at its edges.
+One may lie inside the other whole, or pass it exactly at its edges, or be the same.
 Cost: for each pair of bodies whose boxes overlap, a few times the triangles of both.
 """
 
@@ -8,17 +8,19 @@ import numpy as np
 
 from .cells import winding
 
-SAMPLES = 3  # corners of a body that are looked at
+SAMPLES = 6  # places of a body that are looked at
 INSIDE, OUTSIDE = 0.9, 0.1  # winding numbers; on the surface it is between
 
 
-def find_overlaps(bodies, known):
-    """[(inner, outer, place, whole), ...] of bodies, a list of the corners (m, 3, 3) of triangles that point
+def find_overlaps(bodies, known, places_of=None):
+    """[(inner, outer, places, whole), ...] of bodies, a list of the corners (m, 3, 3) of triangles that point
     outwards.
 
-    place: a corner of `inner` inside `outer`; whole: no corner is outside it. known (n, n) bool: pairs to
-    leave out.
+    places (k, 3): some of those of `inner` that are inside `outer`; whole: none that was looked at is outside
+    it. known (n, n) bool: pairs to leave out. places_of: function that gives the places (k, 3) of a body to
+    look at, by default its corners.
     """
+    places_of = places_of or corners_of
     low = np.array([body.min(axis=(0, 1)) for body in bodies])
     high = np.array([body.max(axis=(0, 1)) for body in bodies])
     found = []
@@ -26,12 +28,32 @@ def find_overlaps(bodies, known):
         meets = (low < high[inner]).all(axis=1) & (high > low[inner]).all(axis=1)
         meets[inner] = False
         meets &= ~known[inner]
-        places = np.unique(body.reshape(-1, 3), axis=0) if meets.any() else None
+        places = places_of(body) if meets.any() else None
         for outer in np.flatnonzero(meets).tolist():
             near = ((places > low[outer]) & (places < high[outer])).all(axis=1)
             picked = places[near][:: max(1, near.sum() // SAMPLES)]
             numbers = np.array([winding(bodies[outer], place) for place in picked])
             if (numbers > INSIDE).any():
                 whole = bool(near.all() and (numbers > OUTSIDE).all())
-                found.append((inner, outer, picked[numbers.argmax()], whole))
+                found.append((inner, outer, picked[numbers > INSIDE], whole))
     return found
+
+
+def corners_of(body):
+    return np.unique(body.reshape(-1, 3), axis=0)
+
+
+def places_inside(body, depth):
+    """Corners of a body, and the middles of its triangles pushed inwards: where the faces of two bodies lie
+    on each other, as those of two equal ones do, no corner is inside."""
+    normal = np.cross(body[:, 1] - body[:, 0], body[:, 2] - body[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    pushed = (
+        body.mean(axis=1)[length > 0] - depth * (normal / np.maximum(length, 1e-300)[:, None])[length > 0]
+    )
+    return np.concatenate([corners_of(body), pushed])
+
+
+def size_of(body):
+    """Diagonal of a body's box (mm)."""
+    return float(np.linalg.norm(body.max(axis=(0, 1)) - body.min(axis=(0, 1))))

@@ -6,8 +6,8 @@ OFF = 0.05  # share of a volume: more than refined facets of curved faces change
 
 
 def volume_warnings(plc, result):
-    """What to know about solids of a Plc whose tetrahedra fill neither the volume of the surface mesh nor that
-    of the part.
+    """What to know about solids of a Plc whose tetrahedra fill neither the volume of the surface mesh nor
+    that of the part.
 
     Only where boundary triangles were replaced can tetrahedra be on the wrong side; elsewhere coarse facets
     of round faces, which the refinement makes rounder, are all that differs.  result: dict of the core.

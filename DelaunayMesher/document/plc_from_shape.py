@@ -15,6 +15,7 @@ from ..sizing import AUTOMATIC_FRACTION
 from .cad_elements import CadElements
 from .closed import open_triangles, solid_volumes
 from .filling import fill
+from .sewing import free_edges
 from .shape_plc import ShapePlc, face_names
 from .sheets import part_sheets
 from .stitching import stitch
@@ -26,6 +27,7 @@ SMALLEST_SHARE = 0.08  # of the smallest size that the user gives anywhere
 COARSEST, FINEST = 1.0 / 1250.0, 1.0 / 3000.0  # linear deflection over the diagonal; OCC is slow below
 ANGULAR, FINEST_ANGULAR = 0.3, 0.15  # radians
 OTHER = 0.1  # of a volume: more than facets change
+PLACES = 3  # free edges whose place a message has
 FLAT = 1e-14  # volume over the diagonal's cube: none but rounding
 # Tried in turn until the triangles close: (factor on the linear, factor on the angular deflection).
 ATTEMPTS = ((1.0, 1.0), (0.25, 0.7), (0.06, 0.4), (0.06, 4.0), (4.0, 1.6))
@@ -160,15 +162,33 @@ def check_solid(shape):
         raise MeshError("plc", "null_shape", "the object has no shape; recompute it, or select another")
     if not shape.Solids:
         kind = shape.ShapeType.lower()
+        edges = []
         if not shape.Faces:
             hint = "no faces; extrude or pad it (Part: Extrude, PartDesign: Pad)"
         elif shape.isClosed():
             hint = "faces: %d; they close, make a solid of them (Part: Convert to solid)" % len(shape.Faces)
         else:
-            hint = "faces: %d; close it and make a solid of it (Part: Convert to solid)" % len(shape.Faces)
+            edges = free_edges(shape)
+            hint = "faces: %d; close it%s and make a solid of it (Part: Convert to solid)" % (
+                len(shape.Faces),
+                near_edges(edges),
+            )
         article = "an" if kind == "edge" else "a"
         text = "the shape is %s %s without a solid (%s)" % (article, kind, hint)
-        raise MeshError("plc", "not_a_solid", text)
+        raise MeshError("plc", "not_a_solid", text, place=middle(edges[0]) if edges else None)
+
+
+def near_edges(edges):
+    """' near (0, 0.5, 1), ...' with the places of the first edges, for a message."""
+    if not edges:
+        return ""
+    places = ", ".join("(%.6g, %.6g, %.6g)" % tuple(middle(edge)) for edge in edges[:PLACES])
+    return " near " + places + (", ... (%d free edges in all)" % len(edges) if edges[PLACES:] else "")
+
+
+def middle(edge):
+    """The point half way along the edge's range."""
+    return edge.valueAt(0.5 * sum(edge.ParameterRange))
 
 
 def deflections(diagonal, options):

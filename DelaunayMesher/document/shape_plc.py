@@ -10,7 +10,7 @@ import Part
 from FreeCAD import Vector
 
 from ..errors import entity_name
-from ..overlaps import find_overlaps
+from ..overlaps import find_overlaps, places_inside, size_of
 from ..plc import Plc
 from .edge_geometry import edge_records
 from .face_geometry import SPHERE, TORUS, face_records, seam_is_smooth
@@ -24,7 +24,9 @@ from .touching import (
 )
 
 NAMED = 5  # elements named in a message
-DEPTH = 1e-3  # of the diagonal: what solids that merely touch may lie in each other
+DEPTH = 1e-3  # of the smaller one's diagonal: what solids that merely touch may lie in each other
+SAME = 1e-6  # of the diagonal or volume: difference between equal solids
+BOX = ("XMin", "YMin", "ZMin", "XMax", "YMax", "ZMax")
 
 
 class ShapePlc:
@@ -47,8 +49,13 @@ class ShapePlc:
             names = face_names(mesh.triangle_face[loose])
             warnings.append("faces that belong to no solid are left out: %s" % names)
         if len(groups) > 1:
-            touching = self.contacts.pairs()
-            warnings += apart_warnings(touching, overlapping_solids(mesh, sides, groups, touching))
+            overlapping = overlapping_solids(mesh, sides, groups)
+            touching = [
+                (first, second)
+                for first, second in self.contacts.pairs()
+                if not {tuple(sorted(pair)) for pair in solid_pairs(sides, first, second)} <= set(overlapping)
+            ]
+            warnings += apart_warnings(mesh.cad.solids, touching, overlapping)
         self.plcs[0].warnings[:0] = warnings
 
     @property
@@ -173,24 +180,43 @@ def edges_that_stay(mesh, kept):
     return sorted({*edges, *mesh.segment_edge[ends].tolist()})
 
 
-def overlapping_solids(mesh, sides, groups, touching):
-    """[(solid, other solid), ...] (1-based) of different groups that lie in each other though no faces of
-    theirs touch."""
+def overlapping_solids(mesh, sides, groups):
+    """[(solid, other solid), ...] (1-based) of different groups that have volume in common."""
     solids = np.array([solid for group in groups for solid in group])
     group = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
-    known = group[:, None] == group
-    row = np.zeros(len(mesh.cad.solids) + 1, dtype=np.int64)
-    row[solids] = np.arange(len(solids))
-    for first, second in touching:
-        for a, b in solid_pairs(sides, first, second):
-            known[row[a], row[b]] = known[row[b], row[a]] = True
     bodies = [mesh.points[outward_triangles(mesh, sides, solid)] for solid in solids.tolist()]
-    return sorted(
-        {
-            tuple(sorted(solids[[inner, outer]].tolist()))
-            for inner, outer, place, _ in find_overlaps(bodies, known)
-            if mesh.cad.solids[solids[outer] - 1].isInside(Vector(*place), DEPTH * mesh.cad.diagonal, False)
-        }
+    found = set()
+    for inner, outer, places, _ in find_overlaps(bodies, group[:, None] == group, deep_places):
+        numbers = solids[[inner, outer]].tolist()
+        depth = DEPTH * min(size_of(bodies[inner]), size_of(bodies[outer]))
+        pair, both = tuple(sorted(numbers)), [mesh.cad.solids[number - 1] for number in numbers]
+        if pair not in found and have_common(*both, places, depth):
+            found.add(pair)
+    return sorted(found)
+
+
+def deep_places(body):
+    """Places of a body to look at, farther inside than have_common() asks for."""
+    return places_inside(body, 3.0 * DEPTH * size_of(body))
+
+
+def have_common(inner, outer, places, depth):
+    """Whether one of some places in or on the CAD solid `inner` lies deeper than that in `outer`: triangles
+    of both lie in each other a little where round faces touch."""
+    return any(
+        outer.isInside(Vector(*place), depth, False) and inner.isInside(Vector(*place), depth, True)
+        for place in places.tolist()
+    )
+
+
+def are_same(one, other):
+    """Whether two CAD solids have the same box, volume and centre."""
+    box, its = one.BoundBox, other.BoundBox
+    near = SAME * box.DiagonalLength
+    return (
+        all(abs(getattr(box, name) - getattr(its, name)) <= near for name in BOX)
+        and abs(one.Volume - other.Volume) <= SAME * abs(one.Volume)
+        and one.CenterOfMass.distanceToPoint(other.CenterOfMass) <= near
     )
 
 
@@ -200,15 +226,21 @@ def outward_triangles(mesh, sides, solid):
     return np.concatenate([mesh.triangles[behind], mesh.triangles[front][:, ::-1]])
 
 
-def apart_warnings(touching, overlapping):
-    """What to know about solids that are meshed apart: pairs of faces that touch, and of solids that lie in
-    each other."""
+def apart_warnings(solids, touching, overlapping):
+    """What to know about solids that are meshed apart: pairs of faces that touch, and of solids that have
+    volume in common."""
     advice = "For a mesh that does, cut the part with Boolean Fragments (mode CompSolid)"
+    same = [(a, b) for a, b in overlapping if are_same(solids[a - 1], solids[b - 1])]
+    partly = [pair for pair in overlapping if pair not in same]
     warnings = []
-    if overlapping:
+    if same:
+        warnings.append(
+            "solids are the same, and both are meshed: %s. Remove one of each two" % pairs_of_names(3, same)
+        )
+    if partly:
         warnings.append(
             "solids lie in each other, and so do their meshes, which do not fit together: %s. %s"
-            % (pairs_of_names(3, overlapping), advice)
+            % (pairs_of_names(3, partly), advice)
         )
     if touching:
         warnings.append(
