@@ -15,6 +15,7 @@ import numpy as np
 from .errors import MeshError, in_number
 
 FRONT, BACK = 0, 1  # side numbers: 2 * triangle + FRONT (where the right-hand normal points) or + BACK
+AT_ONCE = 1_000_000  # pairs of a place and a triangle, which bounds the memory
 OVERLAP = 1e-9  # radians: triangles at one edge closer than this overlap
 FLAT = 1e-12  # volume relative to the cube of the diagonal
 
@@ -219,24 +220,32 @@ def _containing(points, triangles, shell, volumes, outer, component_of, hole, re
 
 def _winding(points, triangles, shell, number, place):
     """Winding number of a shell round a place off it."""
-    return winding(points[_seen_from_behind(triangles, np.flatnonzero(shell == number))], place)
+    corners = points[_seen_from_behind(triangles, np.flatnonzero(shell == number))]
+    return float(winding(corners, place[None])[0])
 
 
-def winding(corners, place):
-    """How often a closed surface with some corners (m, 3, 3) winds round a place off it: 1 inside, when the
-    triangles point outwards (van Oosterom and Strackee 1983)."""
-    if (place < corners.min(axis=(0, 1))).any() or (place > corners.max(axis=(0, 1))).any():
-        return 0.0
-    a, b, c = (corners[:, i] - place for i in range(3))
-    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    above = np.einsum("ij,ij->i", a, np.cross(b, c))
-    below = (
-        la * lb * lc
-        + np.einsum("ij,ij->i", a, b) * lc
-        + np.einsum("ij,ij->i", b, c) * la
-        + np.einsum("ij,ij->i", c, a) * lb
-    )
-    return float(np.arctan2(above, below).sum() / (2 * np.pi))
+def winding(corners, places):
+    """How often a closed surface with some corners (m, 3, 3) winds round each of some places (k, 3) off it,
+    (k,): 1 inside, when the triangles point outwards (van Oosterom and Strackee 1983)."""
+    numbers = np.zeros(len(places))
+    inside = ((places >= corners.min(axis=(0, 1))) & (places <= corners.max(axis=(0, 1)))).all(axis=1)
+    rows = np.flatnonzero(inside)
+    for some in np.array_split(rows, 1 + len(rows) * len(corners) // AT_ONCE):
+        numbers[some] = _solid_angles(corners, places[some]).sum(axis=1) / (4 * np.pi)
+    return numbers
+
+
+def _solid_angles(corners, places):
+    """Of each triangle seen from each place, (k, m)."""
+    a, b, c = (corners[:, i] - places[:, None] for i in range(3))
+    la, lb, lc = (np.sqrt(_dots(v, v)) for v in (a, b, c))
+    above = _dots(a, np.cross(b, c))
+    below = la * lb * lc + _dots(a, b) * lc + _dots(b, c) * la + _dots(c, a) * lb
+    return 2 * np.arctan2(above, below)
+
+
+def _dots(u, v):
+    return np.einsum("kmi,kmi->km", u, v)
 
 
 def _number_solids(points, triangles, shell, volumes, region_of, depth, holes, nested):

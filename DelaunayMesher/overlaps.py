@@ -12,27 +12,31 @@ SAMPLES = 6  # places of a body that are looked at
 INSIDE, OUTSIDE = 0.9, 0.1  # winding numbers; on the surface it is between
 
 
-def find_overlaps(bodies, known, places_of=None):
+def find_overlaps(bodies, known, places_of=None, depth=0.0):
     """[(inner, outer, places, whole), ...] of bodies, a list of the corners (m, 3, 3) of triangles that point
     outwards.
 
     places (k, 3): some of those of `inner` that are inside `outer`; whole: none that was looked at is outside
     it. known (n, n) bool: pairs to leave out. places_of: function that gives the places (k, 3) of a body to
-    look at, by default its corners.
+    look at, by default its corners. depth: share of the smaller body's size that a place must at least be
+    inside the other's box, to leave out early what merely touches.
     """
     places_of = places_of or corners_of
     low = np.array([body.min(axis=(0, 1)) for body in bodies])
     high = np.array([body.max(axis=(0, 1)) for body in bodies])
+    size = np.linalg.norm(high - low, axis=1)
     found = []
     for inner, body in enumerate(bodies):
-        meets = (low < high[inner]).all(axis=1) & (high > low[inner]).all(axis=1)
+        margin = (depth * np.minimum(size, size[inner]))[:, None]
+        meets = (low + margin < high[inner]).all(axis=1) & (high - margin > low[inner]).all(axis=1)
         meets[inner] = False
         meets &= ~known[inner]
         places = places_of(body) if meets.any() else None
         for outer in np.flatnonzero(meets).tolist():
-            near = ((places > low[outer]) & (places < high[outer])).all(axis=1)
+            near = (places > low[outer] + margin[outer]) & (places < high[outer] - margin[outer])
+            near = near.all(axis=1)
             picked = places[near][:: max(1, near.sum() // SAMPLES)]
-            numbers = np.array([winding(bodies[outer], place) for place in picked])
+            numbers = winding(bodies[outer], picked)
             if (numbers > INSIDE).any():
                 whole = bool(near.all() and (numbers > OUTSIDE).all())
                 found.append((inner, outer, picked[numbers > INSIDE], whole))

@@ -186,7 +186,7 @@ def overlapping_solids(mesh, sides, groups):
     group = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
     bodies = [mesh.points[outward_triangles(mesh, sides, solid)] for solid in solids.tolist()]
     found = set()
-    for inner, outer, places, _ in find_overlaps(bodies, group[:, None] == group, deep_places):
+    for inner, outer, places, _ in find_overlaps(bodies, group[:, None] == group, deep_places, DEPTH):
         numbers = solids[[inner, outer]].tolist()
         depth = DEPTH * min(size_of(bodies[inner]), size_of(bodies[outer]))
         pair, both = tuple(sorted(numbers)), [mesh.cad.solids[number - 1] for number in numbers]
