@@ -364,6 +364,7 @@ class Finder {
     return std::any_of(around.begin(), around.end(),
                        [&](const auto& to) { return editor_.collapse(p, std::get<Index>(to)); });
   }
+
   // Is a point inside a face nearer than the tolerance to two of its curves, on opposite sides?
   bool lies_between(const std::vector<Index>& outline, Index p) const {
     if (on_curve(p)) return false;
@@ -436,6 +437,7 @@ class Finder {
     if (feature.size() < 2 || !(strip || is_neck(narrow))) return {};
     return narrow.size() > 1 ? narrow : feature;
   }
+
   // Far narrower at some place, and not much longer than an element: a long strip that widens is kept.
   bool is_neck(const SmallFeature& feature) const {
     Box box;
