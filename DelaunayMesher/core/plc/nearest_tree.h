@@ -48,14 +48,6 @@ class TriangleItem {
   bool flat_;  // no area to speak of
 };
 
-// The nearest triangle that is not turned away from `side`; if all are, the nearest.
-template <class Tree>
-NearestPoint nearest_facing(const Tree& tree, const Vec3& p, const Vec3& side) {
-  const NearestPoint found =
-      tree.nearest(p, [&](const TriangleItem& t) { return t.flat() || dot(t.area_normal(), side) >= 0; });
-  return found.item >= 0 ? found : tree.nearest(p);
-}
-
 template <class Item>
 class NearestTree {
  public:
@@ -113,5 +105,12 @@ class NearestTree {
   std::vector<Item> items_;
   BoxTree tree_;
 };
+
+// The nearest triangle that is not turned away from `side`; if all are, the nearest.
+inline NearestPoint nearest_facing(const NearestTree<TriangleItem>& tree, const Vec3& p, const Vec3& side) {
+  const NearestPoint found =
+      tree.nearest(p, [&](const TriangleItem& t) { return t.flat() || dot(t.area_normal(), side) >= 0; });
+  return found.item >= 0 ? found : tree.nearest(p);
+}
 
 }  // namespace dm
