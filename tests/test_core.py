@@ -132,9 +132,19 @@ def test_a_minimum_size_lifts_the_limit_of_thin_walls():
     coarse = DelaunayMesher.mesh(foil, max_size=10)
     (warning,) = coarse.warnings
     wanted, given = map(float, re.search(r"need elements of (\S+) mm; they get (\S+) mm", warning).groups())
-    assert wanted < given and "--min-size" in warning and "four times" in warning
+    assert wanted < given and "--min-size" in warning
+    predicted = int(re.search(r"the smaller makes about (\d+) elements", warning).group(1))
     fine = DelaunayMesher.mesh(foil, max_size=10, min_size=wanted)
-    assert not fine.warnings and 1 < len(fine.tets) / len(coarse.tets) < (given / wanted) ** 2
+    assert not fine.warnings
+    assert len(coarse.tets) < len(fine.tets) and 0.5 < predicted / len(fine.tets) < 2
+
+
+def test_the_faces_of_walls_at_their_limit_are_named():
+    block_and_foil = joined(box(high=(4, 4, 4)), box((10, 0, 0), (14, 4, 0.05)))
+    (warning,) = DelaunayMesher.mesh(block_and_foil, max_size=10).warnings
+    wide = range(7, 13)  # faces of the foil; those that are the foil's two sides have all walls
+    named = [int(n) for n in re.findall(r"Face(\d+)", warning)]
+    assert len(named) == 2 and set(named) < set(wide)
 
 
 def test_too_many_elements():

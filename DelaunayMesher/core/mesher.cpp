@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "boundary/recovery.h"
 #include "boundary/volumes.h"
+#include "plc/entity_names.h"
 #include "refinement/carve.h"
 #include "refinement/extract.h"
 #include "refinement/refine.h"
@@ -15,8 +16,6 @@
 namespace dm {
 
 namespace {
-
-constexpr std::size_t kNamedElements = 12;  // in a warning
 
 class StageClock {
  public:
@@ -61,36 +60,22 @@ void record(MeshResult& result, const OptimiseReport& optimisation) {
   add("optimisation_rescued", optimisation.rescued);
 }
 
-// "Face3, Face7, Edge2 and 5 more"
-std::string names(const std::vector<Index>& faces, const std::vector<Index>& edges = {},
-                  const std::vector<Index>& vertices = {}) {
-  std::string text;
-  std::size_t named = 0;
-  const auto add = [&](const char* name, const std::vector<Index>& elements) {
-    for (const Index i : elements)
-      if (++named <= kNamedElements) text += (text.empty() ? "" : ", ") + (name + std::to_string(i + 1));
-  };
-  add("Face", faces);
-  add("Edge", edges);
-  add("Vertex", vertices);
-  if (named > kNamedElements) text += " and " + std::to_string(named - kNamedElements) + " more";
-  return text;
-}
-
 std::string absorbed_warning(const Absorbed& absorbed) {
   return "far smaller than the elements, and taken together with what lies beside them: " +
-         names(absorbed.faces, absorbed.edges, absorbed.vertices) +
+         entity_names(absorbed.faces, absorbed.edges, absorbed.vertices) +
          "; a size given to them, or a minimum size, keeps them";
 }
 
 // Counts are written "1 place(s)": Python adds up those of several PLCs before it chooses singular or plural
 // (errors.in_number).
-std::string left_out_warning(const std::vector<Vec3>& places) {
+std::string left_out_warning(const std::vector<Vec3>& places, Index solids) {
   const Vec3& p = places[0];
   char place[100];
   std::snprintf(place, sizeof place, "near (%.6g, %.6g, %.6g)", p.x, p.y, p.z);
-  return std::to_string(places.size()) + " element(s) without volume had to be left out where faces touch, " +
-         place + "; if solids are to be joined there, cut the part with Boolean Fragments";
+  std::string text = std::to_string(places.size()) +
+                     " element(s) without volume had to be left out where faces touch, " + place;
+  if (solids > 1) text += "; if solids are to be joined there, cut the part with Boolean Fragments";
+  return text;
 }
 
 void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport& refinement) {
@@ -99,7 +84,7 @@ void warn(MeshResult& result, const RecoveryReport& recovery, const RefineReport
         std::to_string(recovery.replaced) +
         " boundary triangle(s) could not be recovered and had to be replaced by others between the "
         "same nodes: faces touch, cross or meet at narrow angles there (" +
-        names(recovery.unrecovered_faces) + ")");
+        entity_names(recovery.unrecovered_faces) + ")");
   if (refinement.constrained)
     result.warnings.push_back("in " + std::to_string(refinement.constrained) +
                               " place(s) the mesh is constrained by the boundary instead of Delaunay");
@@ -156,7 +141,7 @@ MeshResult make_mesh(const Plc& given, GeometryRecords records, const MesherOpti
   const std::vector<Vec3> left_out = leave_out_flat_tets(result.mesh);
   result.tet_volumes = tet_volumes(result.mesh, plc.solid_count);
   result.statistics.emplace_back("flat_tetrahedra_left_out", carved + left_out.size());
-  if (!left_out.empty()) result.warnings.push_back(left_out_warning(left_out));
+  if (!left_out.empty()) result.warnings.push_back(left_out_warning(left_out, plc.solid_count));
   if (options.order == 2) {
     result.second_order = make_second_order(result.mesh, geometry, context);
     clock.stop("order");

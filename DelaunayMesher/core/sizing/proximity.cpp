@@ -1,6 +1,7 @@
 #include "sizing/proximity.h"
 
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -25,18 +26,21 @@ constexpr int kDeepestSplit = 20;
 constexpr std::int64_t kMostPlaces = 150'000;
 // Walls and gaps may cost this many times the elements of the rest, and this many in any case.
 constexpr double kBudgetFactor = 3, kBudget = 100'000;
+constexpr double kLimited = 0.99;  // of the size that a wall gets: it asked for less
 // Elements per h^2 of boundary: one side of a thin wall, and what grows from a boundary into a thick solid
 // (the integral of 1 / (0.106 (h + g z)^3) over the depth z), times g.
 constexpr double kWallElements = 3.84 / (kBoundaryEdge * kBoundaryEdge), kGrownElements = 4.7;
 
 struct Patch {
   std::array<Vec3, 3> corner;
-  double size;
+  Index face;
+  double size;        // that it gets: `wanted`, until limits are known
   double local_size;  // by the other sources
   double width;       // of the wall or gap
   double curvature;   // of the two sides, the larger
   bool wall;
   int empty_side;
+  double wanted;  // size by the width
 };
 
 double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
@@ -186,8 +190,8 @@ class Prober {
       if (low < HUGE_VAL && narrow.wall) walls.push_back({p, narrow.width});
       if (!found) clear_.try_emplace(cube(centre), Sample{begin, walls.size(), area(p)});
       if (found)
-        patches.push_back({p, low, local_size_, narrow.width, curvature(centre, narrow.face), narrow.wall,
-                           empty_side(plc_, face_)});
+        patches.push_back({p, face_, low, local_size_, narrow.width, curvature(centre, narrow.face),
+                           narrow.wall, empty_side(plc_, face_), low});
       return;
     }
     // In two across the longest edge, so that slivers make few parts.
@@ -218,20 +222,22 @@ class Prober {
       clear_;  // cubes: probed for a triangle, without small sizes
 };
 
+// Elements that walls and gaps ask for, if no size is below the floor.
+double cost(const std::vector<Patch>& patches, double growth, double floor) {
+  double sum = 0;
+  for (const Patch& patch : patches) {
+    const double h = std::max(patch.size, floor);
+    sum += (kWallElements + (patch.wall ? 0 : kGrownElements / growth)) * area(patch.corner) / (h * h);
+  }
+  return sum;
+}
+
 // The smallest size at which walls and gaps stay within their budget of elements.
 double affordable(const std::vector<Patch>& patches, double growth, double budget, double from, double to) {
-  const auto cost = [&](double floor) {
-    double sum = 0;
-    for (const Patch& patch : patches) {
-      const double h = std::max(patch.size, floor);
-      sum += (kWallElements + (patch.wall ? 0 : kGrownElements / growth)) * area(patch.corner) / (h * h);
-    }
-    return sum;
-  };
-  if (cost(from) <= budget) return from;
+  if (cost(patches, growth, from) <= budget) return from;
   for (int i = 0; i < 30; ++i) {
     const double middle = std::sqrt(from * to);
-    (cost(middle) <= budget ? to : from) = middle;
+    (cost(patches, growth, middle) <= budget ? to : from) = middle;
   }
   return to;
 }
@@ -293,7 +299,6 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
                               const std::vector<double>& triangle_size, Context& context,
                               std::vector<SizeSource>& sources) {
   ProximityResult result;
-  result.finest = options.max_size;
   Prober prober(plc, geometry, boundary, options);
   double others = 0;
   for (std::size_t t = 0; t < plc.triangles.size(); ++t) {
@@ -310,27 +315,33 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
     if (options.min_size > 0) return from;
     return affordable(prober.patches, options.growth, factor * budget, from, options.max_size);
   };
-  for (const Patch& patch : prober.patches) result.wanted = std::min(result.wanted, patch.size);
+  result.elements_wanted = cost(prober.patches, options.growth, 0);
   const double floor = least(limits.proximity, 1);
   result.floor = floor;
   for (Patch& patch : prober.patches) {
-    const double wanted = patch.size;
-    patch.size = std::max(wanted, floor);
-    if (wanted < floor && patch.curvature > 0) {
+    patch.size = std::max(patch.wanted, floor);
+    if (patch.wanted < floor && patch.curvature > 0) {
       // Facets of curved faces must not cross the gap: their sagitta stays below a third of its width.
       const double sagitta = std::sqrt(8 * patch.width / (3 * patch.curvature)) / kBoundaryEdge;
-      patch.size = std::min(patch.size, std::max({sagitta, wanted, limits.crossing}));
+      patch.size = std::min(patch.size, std::max({sagitta, patch.wanted, limits.crossing}));
     }
   }
   // Curved faces in contact (a bolt in its hole) would ask for that everywhere.
   const double crossing = least(limits.crossing, 2);
   result.crossing_floor = crossing;
+  std::set<Index> limited;
   for (const Patch& patch : prober.patches) {
     const double size = std::max(patch.size, crossing);
-    result.finest = std::min(result.finest, size);
+    if (patch.wanted < kLimited * size) {
+      limited.insert(patch.face);
+      result.wanted = std::min(result.wanted, patch.wanted);
+      result.given = std::min(result.given, size);
+    }
     if (size < options.max_size)
       sources.push_back(SizeSource::triangle(patch.corner, size, patch.empty_side));
   }
+  result.elements_given = cost(prober.patches, options.growth, crossing);
+  result.limited.assign(limited.begin(), limited.end());
   return result;
 }
 

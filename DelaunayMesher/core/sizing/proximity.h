@@ -26,10 +26,11 @@ struct ThinWall {
 };
 
 struct ProximityResult {
-  double finest = 0;          // mm, smallest size that walls and gaps get
-  double wanted = HUGE_VAL;   // mm, smallest size that their widths ask for; infinity = no wall or gap found
-  double floor = 0;           // mm, the least they may get
-  double crossing_floor = 0;  // ... where facets would cross a gap
+  std::vector<Index> limited;  // faces whose walls and gaps ask for smaller sizes than they get, and there:
+  double wanted = HUGE_VAL, given = HUGE_VAL;      // mm, the smallest size asked for, and given
+  double elements_wanted = 0, elements_given = 0;  // in all walls and gaps, about
+  double floor = 0;                                // mm, the least they may get
+  double crossing_floor = 0;                       // ... where facets would cross a gap
   std::vector<ThinWall> walls;
 };
 

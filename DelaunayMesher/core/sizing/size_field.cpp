@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "base/random.h"
+#include "plc/entity_names.h"
 #include "sizing/field_sources.h"
 #include "sizing/octree.h"
 #include "sizing/proximity.h"
@@ -55,15 +56,22 @@ double inverse_boundary_area(const Field& h, const Plc& plc, int levels) {
   return sum;
 }
 
-std::string limited_walls(const ProximityResult& found) {
-  char text[320];
-  std::snprintf(
-      text, sizeof text,
-      "Some walls or gaps are so thin that they need elements of %.3g mm; they get %.3g mm, and angles may "
-      "be below the target there. To lift this limit, set --min-size to a length between the two; half of "
-      "it makes up to four times as many elements there.",
-      found.wanted, found.finest);
+// "650000", in two digits.
+std::string about(double count) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(count, 1.0))) - 1));
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f", std::round(count / unit) * unit);
   return text;
+}
+
+std::string limited_walls(const ProximityResult& found) {
+  char sizes[100];
+  std::snprintf(sizes, sizeof sizes, "need elements of %.3g mm; they get %.3g mm", found.wanted, found.given);
+  return "Walls or gaps at " + entity_names(found.limited) + " are so thin that they " + sizes +
+         ", and angles may be below the target there. A minimum size (--min-size) between the two lifts this "
+         "limit: the smaller makes about " +
+         about(found.elements_wanted) + " elements in thin walls and gaps, the larger about " +
+         about(found.elements_given) + ".";
 }
 
 std::vector<double> used_solid_sizes(const SizeOptions& options) {
@@ -124,7 +132,7 @@ SizeField::SizeField(const Plc& plc, const Geometry& geometry, const SizeOptions
     proximity = add_proximity(plc, geometry, *boundary, options, limits, triangle_size, context, sources);
   }
   impl_->floors = {limits.curvature, proximity.floor, proximity.crossing_floor};
-  if (proximity.wanted < 0.99 * proximity.finest) impl_->warnings.push_back(limited_walls(proximity));
+  if (!proximity.limited.empty()) impl_->warnings.push_back(limited_walls(proximity));
   FieldSources field;
   field.max_size = options.max_size;
   field.floor = limits.floor;
