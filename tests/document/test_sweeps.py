@@ -60,6 +60,12 @@ def stepped_block(step):
     return Part.makeBox(40, 30, 20).fuse(Part.makeBox(20, 30, step, V(0, 0, 20))).removeSplitter()
 
 
+def cylinder_let_into_block(depth):
+    """What joins them is narrow from one edge to the other."""
+    block = Part.makeBox(20, 20, 10)
+    return block.fuse(Part.makeCylinder(4, 30, V(10, -5, 14 - depth), V(0, 1, 0)))
+
+
 def slab_flush_with_one_side(step):
     """A slab on a block that it overhangs a little, its side in one face with that of a wider part: that face
     has a narrow tail."""
@@ -73,6 +79,7 @@ SWEEPS = {
     "gap": (cylinders_with_gap, [1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4]),
     "groove": (groove, [2, 1, 0.5, 0.2, 0.1, 0.05]),
     "edge": (block_with_short_edge, [1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5]),
+    "neck": (cylinder_let_into_block, [1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6]),
     "ridge": (roof_with_flat_ridge, [5, 1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5]),
 }
 
@@ -214,3 +221,10 @@ def test_a_neck_of_a_face_between_two_points_of_its_curves(radius, gap):
     part = Part.makeBox(40, 30, 10).fuse(Part.makeCylinder(radius, 8, V(20, radius + gap, 10)))
     mesh = DelaunayMesher.mesh(part, max_size=3.0, threads=1)
     assert mesh.quality["min_dihedral"] > 25
+
+
+@pytest.mark.parametrize("depth", [1e-2, 1e-3])
+def test_a_neck_between_two_edges_gets_small_elements(depth):
+    mesh = checked(cylinder_let_into_block(depth), 2.0)
+    assert mesh.quality["min_dihedral"] > 25
+    assert not mesh.warnings or "constrained" in mesh.warnings[0]

@@ -53,6 +53,7 @@ class NearestTree {
  public:
   explicit NearestTree(std::vector<Item> items) : items_(std::move(items)), tree_(boxes_of(items_)) {}
 
+  Index size() const { return static_cast<Index>(items_.size()); }
   const Item& item(Index i) const { return items_[i]; }
 
   NearestPoint nearest(const Vec3& p) const {

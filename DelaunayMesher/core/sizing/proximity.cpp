@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "base/random.h"
+#include "sizing/edge_necks.h"
 #include "sizing/shared_edges.h"
 
 namespace dm {
@@ -30,17 +31,21 @@ constexpr double kLimited = 0.99;  // of the size that a wall gets: it asked for
 // Elements per h^2 of boundary: one side of a thin wall, and what grows from a boundary into a thick solid
 // (the integral of 1 / (0.106 (h + g z)^3) over the depth z), times g.
 constexpr double kWallElements = 3.84 / (kBoundaryEdge * kBoundaryEdge), kGrownElements = 4.7;
+constexpr double kNeck = 2.5;          // size over the width of a neck: limit measured, 3 makes 30 degrees
+constexpr double kNeckElements = 100;  // per h of length, of either edge
 
+// A part of the boundary with a wall or gap behind it, or a part of an edge at a neck.
 struct Patch {
-  std::array<Vec3, 3> corner;
+  SizeSource source;  // has the size by the width, until limits are known
   Index face;
-  double size;        // that it gets: `wanted`, until limits are known
   double local_size;  // by the other sources
-  double width;       // of the wall or gap
+  double width;       // of the wall, gap or neck
   double curvature;   // of the two sides, the larger
-  bool wall;
-  int empty_side;
-  double wanted;  // size by the width
+  bool wall;          // or neck
+  double wanted;      // size by the width
+
+  bool is_neck() const { return source.corners == 2; }
+  std::array<Vec3, 3> corner() const { return {source.a, source.b, source.c}; }
 };
 
 double area(const std::array<Vec3, 3>& p) { return 0.5 * norm(area_vector(p[0], p[1], p[2])); }
@@ -190,8 +195,8 @@ class Prober {
       if (low < HUGE_VAL && narrow.wall) walls.push_back({p, narrow.width});
       if (!found) clear_.try_emplace(cube(centre), Sample{begin, walls.size(), area(p)});
       if (found)
-        patches.push_back({p, face_, low, local_size_, narrow.width, curvature(centre, narrow.face),
-                           narrow.wall, empty_side(plc_, face_), low});
+        patches.push_back({SizeSource::triangle(p, low, empty_side(plc_, face_)), face_, local_size_,
+                           narrow.width, curvature(centre, narrow.face), narrow.wall, low});
       return;
     }
     // In two across the longest edge, so that slivers make few parts.
@@ -222,13 +227,24 @@ class Prober {
       clear_;  // cubes: probed for a triangle, without small sizes
 };
 
-// Elements that walls and gaps ask for, if no size is below the floor.
+void add_necks(const std::vector<EdgeNeck>& necks, const SizeOptions& options, std::vector<Patch>& patches) {
+  for (const auto& [a, b, face, width, local_size] : necks) {
+    const double size = kNeck * width * 2 / options.elements_across;
+    if (size < local_size)
+      patches.push_back({SizeSource::segment(a, b, size), face, local_size, width, 0, true, size});
+  }
+}
+
+// Elements that a patch of size h asks for.
+double elements(const Patch& patch, double growth, double h) {
+  if (patch.is_neck()) return kNeckElements * norm(patch.source.b - patch.source.a) / h;
+  return (kWallElements + (patch.wall ? 0 : kGrownElements / growth)) * area(patch.corner()) / (h * h);
+}
+
+// ... that all ask for, if no size is below the floor.
 double cost(const std::vector<Patch>& patches, double growth, double floor) {
   double sum = 0;
-  for (const Patch& patch : patches) {
-    const double h = std::max(patch.size, floor);
-    sum += (kWallElements + (patch.wall ? 0 : kGrownElements / growth)) * area(patch.corner) / (h * h);
-  }
+  for (const Patch& patch : patches) sum += elements(patch, growth, std::max(patch.source.size, floor));
   return sum;
 }
 
@@ -264,7 +280,7 @@ bool is_point_of_contact(const std::vector<Patch>& patches, const std::vector<st
   Box box;
   double local_size = HUGE_VAL, narrowest = HUGE_VAL, widest = 0;
   for (const std::size_t i : group) {
-    box.add(middle(patches[i].corner));
+    box.add(middle(patches[i].corner()));
     local_size = std::min(local_size, patches[i].local_size);
     narrowest = std::min(narrowest, patches[i].width);
     widest = std::max(widest, patches[i].width);
@@ -279,7 +295,7 @@ void leave_out_points_of_contact(std::vector<Patch>& patches, double max_size) {
   GapCells cells;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (patches[i].wall) continue;
-    const Vec3 q = (2 / max_size) * middle(patches[i].corner);
+    const Vec3 q = (2 / max_size) * middle(patches[i].corner());
     cells[{std::llround(q.x), std::llround(q.y), std::llround(q.z)}].push_back(i);
   }
   std::vector<char> drop(patches.size(), 0);
@@ -310,6 +326,7 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
   }
   result.walls = std::move(prober.walls);
   leave_out_points_of_contact(prober.patches, options.max_size);
+  add_necks(find_edge_necks(plc, triangle_size, limits.proximity, context), options, prober.patches);
   const double budget = std::max(kBudget, kBudgetFactor * others);
   const auto least = [&](double from, double factor) {
     if (options.min_size > 0) return from;
@@ -319,26 +336,27 @@ ProximityResult add_proximity(const Plc& plc, const Geometry& geometry, const Bo
   const double floor = least(limits.proximity, 1);
   result.floor = floor;
   for (Patch& patch : prober.patches) {
-    patch.size = std::max(patch.wanted, floor);
+    double& size = patch.source.size;
+    size = std::max(patch.wanted, floor);
     if (patch.wanted < floor && patch.curvature > 0) {
       // Facets of curved faces must not cross the gap: their sagitta stays below a third of its width.
       const double sagitta = std::sqrt(8 * patch.width / (3 * patch.curvature)) / kBoundaryEdge;
-      patch.size = std::min(patch.size, std::max({sagitta, patch.wanted, limits.crossing}));
+      size = std::min(size, std::max({sagitta, patch.wanted, limits.crossing}));
     }
   }
   // Curved faces in contact (a bolt in its hole) would ask for that everywhere.
   const double crossing = least(limits.crossing, 2);
   result.crossing_floor = crossing;
   std::set<Index> limited;
-  for (const Patch& patch : prober.patches) {
-    const double size = std::max(patch.size, crossing);
+  for (Patch& patch : prober.patches) {
+    double& size = patch.source.size;
+    size = std::max(size, crossing);
     if (patch.wanted < kLimited * size) {
       limited.insert(patch.face);
       result.wanted = std::min(result.wanted, patch.wanted);
       result.given = std::min(result.given, size);
     }
-    if (size < options.max_size)
-      sources.push_back(SizeSource::triangle(patch.corner, size, patch.empty_side));
+    if (size < options.max_size) sources.push_back(patch.source);
   }
   result.elements_given = cost(prober.patches, options.growth, crossing);
   result.limited.assign(limited.begin(), limited.end());

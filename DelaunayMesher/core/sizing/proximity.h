@@ -1,4 +1,4 @@
-// Sizes that thin walls and narrow gaps need.
+// Sizes that thin walls, narrow gaps and necks need.
 //
 // From places on every triangle a ray is shot along both normals.  It measures a wall (inside a solid) or a
 // gap (outside) of width t if the triangle that it hits first is roughly opposed: less than 15 degrees
@@ -8,9 +8,9 @@
 // for which 2 is enough if the mesh will be optimised).  Measured limits for a 20 degree mesh before
 // optimisation are 2.1 t and 1.5 t, for free walls after it 2.5 t. Two faces that meet at an acute angle (a
 // wedge, a cusp at a tangent fillet) are no wall near their common edge: there t goes to zero and refinement
-// would never end. Cost: two short rays per place; places are one to two h_local apart, closer where the
-// width varies. Known limit: a feature much smaller than the triangles on both of its sides and the local
-// size can be missed.
+// would never end.  Necks between edges are found apart (edge_necks.h).  Cost: two short rays per place;
+// places are one to two h_local apart, closer where the width varies.  Known limit: a feature much smaller
+// than the triangles on both of its sides and the local size can be missed.
 #pragma once
 
 #include "sizing/boundary_tree.h"

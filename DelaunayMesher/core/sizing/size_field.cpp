@@ -67,11 +67,11 @@ std::string about(double count) {
 std::string limited_walls(const ProximityResult& found) {
   char sizes[100];
   std::snprintf(sizes, sizeof sizes, "need elements of %.3g mm; they get %.3g mm", found.wanted, found.given);
-  return "Walls or gaps at " + entity_names(found.limited) + " are so thin that they " + sizes +
+  return "Walls, gaps or necks at " + entity_names(found.limited) + " are so thin that they " + sizes +
          ", and angles may be below the target there. A minimum size (--min-size) between the two lifts this "
          "limit: the smaller makes about " +
-         about(found.elements_wanted) + " elements in thin walls and gaps, the larger about " +
-         about(found.elements_given) + ".";
+         about(found.elements_wanted) + " elements there, the larger about " + about(found.elements_given) +
+         ".";
 }
 
 std::vector<double> used_solid_sizes(const SizeOptions& options) {
